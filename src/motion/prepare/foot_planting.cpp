@@ -149,21 +149,26 @@ constexpr Array<int, 4> kKneesAndAnkles = {kLeftKnee, kLeftAnkle, kRightKnee, kR
 
 /// Points of the legs with their derivatives.
 struct Legs {
+  BodyPoses poses;
   SolePositions sole;
   Array<PointJacobian, kFootPoints> sole_J;
   Array<Vector3d, kKneesAndAnkles.size()> joint;
   Array<PointJacobian, kKneesAndAnkles.size()> joint_J;
-  List<Vector3d> other;  ///< lowest places of the legs' other contact points: thighs, knees, insteps
-  List<PointJacobian> other_J;
 };
 
-bool is_of_leg(int body) {
-  return std::any_of(kLegTurns.begin(), kLegTurns.end(), [&](const LegTurn& t) { return t.body == body; });
+/// The legs' contact points that are none of the soles: of thighs, knees and insteps.
+List<ContactPoint> other_leg_points(const Character& character) {
+  List<ContactPoint> found;
+  for (int k = kFootPoints; k < character.contact_points.count(); ++k)
+    for (const LegTurn& turn : kLegTurns)
+      if (turn.body == character.contact_points[k].body) found.push_back(character.contact_points[k]);
+  return found;
 }
 
 Legs legs_of(const Character& character, const ReferenceFrame& frame) {
-  const BodyPoses poses = forward_kinematics(character, frame.p_root, frame.q);
   Legs legs;
+  legs.poses = forward_kinematics(character, frame.p_root, frame.q);
+  const BodyPoses& poses = legs.poses;
   legs.sole = sole_positions(character, poses);
   for (int k = 0; k < kFootPoints; ++k)
     legs.sole_J[k] = leg_jacobian(poses, character.contact_points[k].body, legs.sole[k]);
@@ -171,12 +176,6 @@ Legs legs_of(const Character& character, const ReferenceFrame& frame) {
     const int body = kKneesAndAnkles[k];
     legs.joint[k] = poses.p_WB[body];
     legs.joint_J[k] = leg_jacobian(poses, body, legs.joint[k]);
-  }
-  for (int k = kFootPoints; k < character.contact_points.count(); ++k) {
-    const ContactPoint& point = character.contact_points[k];
-    if (!is_of_leg(point.body)) continue;
-    legs.other.push_back(lowest_position(point, poses));
-    legs.other_J.push_back(leg_jacobian(poses, point.body, legs.other.back()));
   }
   return legs;
 }
@@ -221,10 +220,11 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
   return out;
 }
 
-/// @param held  [frames][other points of the legs] those that came below the ground in a step before
+/// @param others  other_leg_points
+/// @param held  [frames][others] those that came below the ground in a step before
 Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference,
                         const PerFrame<Array<double, kFootPoints>>& clearance, const PerFrame<Correction>& c,
-                        PerFrame<List<bool>>& held) {
+                        const List<ContactPoint>& others, PerFrame<List<bool>>& held) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
   const Correction size = sizes(kSigmaPlace, kSigmaLegTurn);
@@ -255,12 +255,12 @@ Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& referen
         equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
                       kSigmaSlip);
     }
-    held[t].resize(now.other.size());
-    for (int k = 0; k < now.other.count(); ++k) {
-      const double z = reference.scene.clearance(now.other[k]);
+    for (int k = 0; k < others.count(); ++k) {
+      const Vector3d p = lowest_position(others[k], now.poses);
+      const double z = reference.scene.clearance(p);
       held[t][k] =
           z < 0.0 || (held[t][k] && z < kResting);  // else every second step would push it down again
-      if (held[t][k]) equations.add(t, now.other_J[k].row(2), z, kSigmaDepth);
+      if (held[t][k]) equations.add(t, leg_jacobian(now.poses, others[k].body, p).row(2), z, kSigmaDepth);
     }
     before = now;
   }
@@ -289,9 +289,10 @@ double plant_feet(const PerFrame<Stance>& stance, Reference& reference) {
   const int frames = reference.size();
   const auto clearance = clearances(stance, reference);
   PerFrame<Correction> c(frames, Correction::Zero());
-  PerFrame<List<bool>> held(frames);
+  const List<ContactPoint> others = other_leg_points(reference.character);
+  PerFrame<List<bool>> held(frames, List<bool>(others.size(), false));
   for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
-    const Eigen::VectorXd step = step_of(stance, reference, clearance, c, held);
+    const Eigen::VectorXd step = step_of(stance, reference, clearance, c, others, held);
     const double largest = step.cwiseAbs().maxCoeff();
     const double scale = std::min(1.0, kLargestPlantingStep / std::max(largest, kSmallestStep));
     for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);
