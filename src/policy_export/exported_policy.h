@@ -74,35 +74,38 @@ void with_policy(const ExportedPolicy& exported, F&& f) {
     mean.push_back(agent.observations.shift(0, i));
     factor.push_back(agent.observations.factor(0, i));
   }
-  const auto run = [&](auto weights_of, const std::int8_t* powers, const auto& use) {
-    using Weight = std::remove_cvref_t<decltype(*weights_of(std::size_t{0}))>;
-    std::vector<Layer<Weight>> layers;
-    for (std::size_t l = 0; l < actor.weights.size(); ++l) {
-      const int inputs =
-          l == 0 ? static_cast<int>(exported.inputs.size()) : static_cast<int>(actor.weights[l].rows());
-      layers.push_back({inputs, static_cast<int>(actor.weights[l].cols()), weights_of(l),
-                        exported.in_8_bits ? exported.quantised.layers[l].scales.data() : nullptr,
-                        actor.biases[l].data()});
-    }
-    use(Policy<Weight>{exported.motion.view(), offsets.data(), shape.data(), exported.inputs.data(),
-                       mean.data(), factor.data(), agent.observations.limit, powers,
-                       static_cast<int>(layers.size()), layers.data(), exported.max_action});
+  const auto policy_with = [&]<class Weight>(const std::vector<Layer<Weight>>& layers,
+                                             const std::int8_t* powers) {
+    return Policy<Weight>{exported.motion.view(),
+                          offsets.data(),
+                          shape.data(),
+                          exported.inputs.data(),
+                          mean.data(),
+                          factor.data(),
+                          agent.observations.limit,
+                          powers,
+                          static_cast<int>(layers.size()),
+                          layers.data(),
+                          exported.max_action};
   };
   if (exported.in_8_bits) {
-    run([&](std::size_t l) { return exported.quantised.layers[l].codes.data(); },
-        exported.quantised.powers.data(), f);
+    std::vector<Layer<std::int8_t>> layers;
+    for (std::size_t l = 0; l < actor.weights.size(); ++l)
+      layers.push_back({l == 0 ? static_cast<int>(exported.inputs.size()) : actor.sizes[l],
+                        actor.sizes[l + 1], exported.quantised.layers[l].codes.data(),
+                        exported.quantised.layers[l].scales.data(), actor.biases[l].data()});
+    f(policy_with(layers, exported.quantised.powers.data()));
     return;
   }
-  const auto use = [&](const Policy<float>& policy) {
-    if (!exported.coder) return f(policy);
-    const nn::AutoEncoder& coder = *exported.coder;
-    const std::vector<Layer<float>> encoder = float_layers(coder.encoder),
-                                    decoder = float_layers(coder.decoder);
-    f(CodedPolicy<float>{policy, coder.inputs.shift.data(), coder.inputs.factor.data(), coder.inputs.limit,
-                         static_cast<int>(encoder.size()), static_cast<int>(decoder.size()), encoder.data(),
-                         decoder.data()});
-  };
-  run([&](std::size_t l) { return actor.weights[l].data(); }, nullptr, use);
+  const std::vector<Layer<float>> layers = float_layers(actor);
+  const Policy<float> policy = policy_with(layers, nullptr);
+  if (!exported.coder) return f(policy);
+  const nn::AutoEncoder& coder = *exported.coder;
+  const std::vector<Layer<float>> encoder = float_layers(coder.encoder),
+                                  decoder = float_layers(coder.decoder);
+  f(CodedPolicy<float>{policy, coder.inputs.shift.data(), coder.inputs.factor.data(), coder.inputs.limit,
+                       static_cast<int>(encoder.size()), static_cast<int>(decoder.size()), encoder.data(),
+                       decoder.data()});
 }
 
 }  // namespace mimicx::policy_export

@@ -14,6 +14,7 @@
 #include "motion/made_motions.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
+#include "rl/tracking/tracking_clip.h"
 #include "verify.h"
 
 namespace mimicx::audit {
@@ -522,13 +523,9 @@ TEST(Certificate, TakesTheContactsOfTheSimulator) {
     std::array<int, 2> seen{};
     for (int k = -8; k <= 8; ++k) {
       state.p_root.z() = static_cast<float>(touching + 3e-8 * k);
-      physics::State<double> start;
+      const physics::State<double> start = rl::tracking::simulator_state(state);
       physics::Target<double> target;
-      start.p_root = physics::from_eigen(state.p_root);
-      start.v_root = physics::from_eigen(state.v_root);
       for (int i = 0; i < kBodies; ++i) {
-        start.q[i] = physics::from_eigen(state.q[i]);
-        start.omega[i] = physics::from_eigen(state.omega[i]);
         target.q[i] = physics::from_eigen(motion.steps[0].target_q[i]);
         target.omega[i] = physics::from_eigen(motion.steps[0].target_omega[i]);
       }

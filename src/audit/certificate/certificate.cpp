@@ -16,6 +16,7 @@
 #include "physics/joints.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
+#include "rl/tracking/tracking_clip.h"
 
 namespace mimicx::audit {
 namespace {
@@ -64,11 +65,8 @@ struct Record {
 
 Record record_of(const rl::tracking::Substep& step) {
   Record record;
-  record.state.p_root = physics::from_eigen(step.state.p_root);
-  record.state.v_root = physics::from_eigen(step.state.v_root);
+  record.state = rl::tracking::simulator_state(step.state);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    record.state.q[i] = physics::from_eigen(step.state.q[i]);
-    record.state.omega[i] = physics::from_eigen(step.state.omega[i]);
     record.target.q[i] = physics::from_eigen(step.target_q[i]);
     record.target.omega[i] = physics::from_eigen(step.target_omega[i]);
   }
