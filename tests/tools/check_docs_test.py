@@ -43,13 +43,13 @@ def complaints(folder):
     return found
 
 
-def with_text(folder, name, text):
+def append(folder, name, text):
+    """@return  the lines of the file that the text is on, counted from 1"""
     path = folder / name
     kept = path.read_text(encoding="utf-8")
     path.write_text(kept + "\n" + text + "\n", encoding="utf-8")
-    found = complaints(folder)
-    path.write_text(kept, encoding="utf-8")
-    return found
+    first = len(kept.splitlines()) + 2
+    return range(first, first + len(text.splitlines()))
 
 
 with tempfile.TemporaryDirectory() as temporary:
@@ -60,12 +60,16 @@ with tempfile.TemporaryDirectory() as temporary:
         shutil.copy(ROOT / name, copy / name)
     os.symlink(ROOT / "data", copy / "data")
     before = complaints(copy)
-    for name, text, complaint in MISTAKES:
-        found = with_text(copy, name, text) - before
-        assert len(found) == 1 and complaint in found.pop(), (name, text, found)
     for name, text in RIGHT:
-        assert with_text(copy, name, text) == before, (name, text)
+        append(copy, name, text)
+    assert complaints(copy) == before, complaints(copy) - before
+    places = [(name, append(copy, name, text), complaint) for name, text, complaint in MISTAKES]
     rooms = copy / "tools" / "check_layers"
     rooms.write_text(rooms.read_text(encoding="utf-8").replace('"nn": "core"', '"nn": "character"'), encoding="utf-8")
-    assert any("picture of the rooms" in line for line in complaints(copy) - before)
+    found = complaints(copy) - before
+    assert len(found) == len(MISTAKES) + 1, found
+    for name, lines, complaint in places:
+        of_lines = [c for c in found if c.startswith(tuple(f"docs: {name}:{line}: " for line in lines))]
+        assert len(of_lines) == 1 and complaint in of_lines[0], (name, complaint, found)
+    assert any("picture of the rooms" in c for c in found), found
 print(f"{len(MISTAKES) + 1} mistakes named")
