@@ -22,7 +22,7 @@ using namespace mimicx;
 int main(int argc, char** argv) {
   const long samples = argc > 1 ? std::atol(argv[1]) : 300000;  // 5_follow 2000000 takes some minutes
   const motion::Reference reference = tour::motion_of_kind("squat", 1);
-  const rl::tracking::TrackingConfig config;
+  rl::tracking::TrackingConfig config;  // to change it: config.uniform_starts = 1.0;
   const auto clip = rl::tracking::make_tracking_clip(reference, config);
   std::printf("the motion: %s, %d frames; s_t has %d numbers, a_t %d\n", reference.name.c_str(),
               reference.size(), clip->state_size(), kDofs);
