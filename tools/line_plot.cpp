@@ -19,6 +19,14 @@ std::string number(double value, const char* format = "%.1f") {
   return text;
 }
 
+/// "500k", "1.5M", on a logarithmic axis "1e-04": longer labels do not fit beside an axis.
+std::string tick_label(double value, bool log) {
+  const double size = std::abs(value);
+  if (log) return number(value, size < 1e-3 ? "%.0e" : "%.4g");
+  if (size >= 1e6) return number(value / 1e6, "%.4gM");
+  return size >= 1e4 ? number(value / 1e3, "%.4gk") : number(value, "%.4g");
+}
+
 std::string text(double x, double y, const std::string& what, const std::string& more = "") {
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\"" + more + ">" + what + "</text>\n";
 }
@@ -60,12 +68,12 @@ std::string draw_axes(const Panel& panel, const Axis& x, const Axis& y) {
   for (double tick : x.ticks) {
     const std::string px = number(x.at(tick));
     out += "<path d=\"M" + px + " " + number(y.from) + "V" + number(y.to) + "\" stroke=\"#ddd\"/>\n";
-    out += text(x.at(tick), y.from + 15, number(tick, "%.4g"), " text-anchor=\"middle\"");
+    out += text(x.at(tick), y.from + 15, tick_label(tick, x.log), " text-anchor=\"middle\"");
   }
   for (double tick : y.ticks) {
     const std::string py = number(y.at(tick));
     out += "<path d=\"M" + number(x.from) + " " + py + "H" + number(x.to) + "\" stroke=\"#ddd\"/>\n";
-    out += text(x.from - 5, y.at(tick) + 4, number(tick, "%.4g"), " text-anchor=\"end\"");
+    out += text(x.from - 5, y.at(tick) + 4, tick_label(tick, y.log), " text-anchor=\"end\"");
   }
   out += text(0.5 * (x.from + x.to), y.from + 32, panel.x_label, " text-anchor=\"middle\"");
   const double middle = 0.5 * (y.from + y.to), side = x.from - 48;

@@ -6,7 +6,7 @@
 // Belongs to: docs/trees.md §1, §2; docs/physics.md §1, §2, §6.
 // Questions: 1. By what factor does the period's error fall when dt is halved? Why by that?
 //            2. By what factor do the errors of momentum and energy grow when dt is ten times as long? Why?
-//            3. Give the fall one heavy arm. Which printed numbers change, and which do not?
+//            3. Give the fall one heavy arm (character.mass[kLeftElbow] *= 10). Which numbers change?
 #include <cmath>
 
 #include "control/centroidal_momentum.h"

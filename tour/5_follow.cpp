@@ -4,8 +4,12 @@
 // anywhere on the motion; what a curve of PPO looks like on a body.
 // Belongs to: docs/method.md §3, §4, §5, §7 (states, actions, reward, learning); Eqs. 2, 3.
 // Questions: 1. How does the body do before the first iteration, and why is that not nothing at all?
-//            2. Set uniform_starts, a share of 0.4, to 1. When does the curve lose by it, and when not?
-//            3. Make actions absolute (ActionMode::kAbsolute). How many samples does the same reward take?
+//            2. Set uniform_starts, a share of 0.4, to 1, here and on a walk ("walk", 2). Where does the
+//            curve
+//               lose by it, and why there?
+//            3. Make actions absolute (ActionMode::kAbsolute). What must the policy learn in addition, and
+//            how
+//               far do these samples bring it?
 #include <cstdlib>
 
 #include "motions.h"
@@ -18,7 +22,7 @@ using namespace mimicx;
 int main(int argc, char** argv) {
   const long samples = argc > 1 ? std::atol(argv[1]) : 300000;  // 5_follow 2000000 takes some minutes
   const motion::Reference reference = tour::motion_of_kind("squat", 1);
-  const rl::tracking::TrackingConfig config;
+  rl::tracking::TrackingConfig config;  // to change it: config.uniform_starts = 1.0;
   const auto clip = rl::tracking::make_tracking_clip(reference, config);
   std::printf("the motion: %s, %d frames; s_t has %d numbers, a_t %d\n", reference.name.c_str(),
               reference.size(), clip->state_size(), kDofs);

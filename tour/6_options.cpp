@@ -3,10 +3,11 @@
 // You learn: the 68 features of Eq. 1 and what makes motions near; hierarchical k-means; the dynamic
 // programme of Eq. 4 with the corrected recursion; what a switch costs.
 // Belongs to: docs/method.md §6, §8 (features and clusters, selector); Eqs. 1, 4, 5.
-// Questions: 1. Which two of the motions are nearest, and which kind of feature tells them apart?
+// Questions: 1. Which two kinds of motion are nearest, and which kind of feature tells them apart?
 //            2. At which penalty on a switch does one option do the whole walk?
-//            3. The recursion as printed adds the reward of the option before. Write it: what does it choose?
-#include <cstdlib>
+//            3. Charge no rescues: charge_rescues(rolled, 0). What becomes of R(O) and the switches, and why
+//            is the larger R(O) worth less?
+#include <algorithm>
 
 #include "motions.h"
 #include "picture.h"
@@ -27,9 +28,15 @@ int main(int argc, char** argv) {
     for (int f = 0; f < kFeatures; ++f) points(k, f) = features[f];
   }
   for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b)
-      std::printf("distance %-5s to %-5s: %5.2f\n", kinds[a], kinds[b],
-                  (points.row(2 * a) - points.row(2 * b + (a == b ? 1 : 0))).norm());
+    for (int b = a; b < 3; ++b) {
+      const Eigen::RowVectorXd apart = points.row(2 * a) - points.row(2 * b + (a == b ? 1 : 0));
+      const auto share = [&](const FeatureKind& kind) {
+        return apart.segment(kind.first, kind.entries).squaredNorm() / apart.squaredNorm();
+      };
+      const FeatureKind& most = *std::ranges::max_element(kFeatureKinds, {}, share);
+      std::printf("distance %-5s to %-5s: %5.2f; %2.0f %% of its square from %s\n", kinds[a], kinds[b],
+                  apart.norm(), 100 * share(most), most.name.data());
+    }
   const ClusterTree tree = complete_tree(points, 1);
   const double radius = radius_for_clusters(tree, 3);
   std::printf("three clusters at l_max = %.2f:", radius);

@@ -6,7 +6,7 @@
 // Questions: 1. The mean of the floor's force over the motion is the weight to a few per cent. Why must
 //               it be?
 //            2. Add 0.1 to every residual of one frame. What happens, and what would gains change?
-//            3. Set the weights com_velocity and angular_momentum of the plan to 0. What does the force show?
+//            3. Plan a jump ("jump", 1). What does the force show, and what is its mean now?
 #include <filesystem>
 
 #include "control/plan.h"
