@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -147,7 +148,23 @@ TEST(PlanarMoments, AccelerationsOfACubicAreExactAtTheEndsToo) {
   for (int t = 0; t < 12; ++t) EXPECT_NEAR((a[t] - Vector3d(200.0, 600.0 * t, 0.0)).norm(), 0.0, 1e-6) << t;
 }
 
-/// The table of ../shared/forces/compare.py for the same files: every value as printed.
+TEST(ForceComparison, MomentsOfAMovingPersonAreThoseOfAStandingOne) {
+  Pressed pressed(30);
+  const auto still = values_of(pressed);
+  const Vector3d velocity(0.3, -1.2, 0.0);
+  for (int t = 0; t < 30; ++t) {
+    for (Vector3d& joint : pressed.measured.joints[t]) joint += t / 30.0 * velocity;
+    pressed.motion.frames[static_cast<std::size_t>(t)].p_root += t / 30.0 * velocity;
+  }
+  for (auto& sample : pressed.measured.samples)
+    for (Vector3d& pressure : sample.pressure)
+      pressure += (sample.time - 0.5 / 300.0) * velocity;  // the mean of an interval's ten is at its middle
+  for (const char* name : {"ank", "kne", "hip"})
+    EXPECT_NEAR(values_of(pressed).at(name), still.at(name), 1e-6);
+}
+
+/// The table of ../shared/forces/compare.py for the same files: every value as printed but the moments, for
+/// which that program takes the joints at the end of the interval over which it averages the forces.
 TEST(ForceComparison, PrintsTheTableOfTheStudyInPython) {
   const std::filesystem::path shared = std::filesystem::path(MIMICX_SHARED_DIR) / "forces";
   if (!std::filesystem::exists(shared / "compare.py")) GTEST_SKIP() << "needs ../shared";
@@ -211,9 +228,15 @@ TEST(ForceComparison, PrintsTheTableOfTheStudyInPython) {
       0);
   std::ifstream file(printed);
   std::istringstream ours(format_forces(evaluate_forces(folder.path / "data", folder.path / "motions", NAN)));
+  const auto& columns = force_columns();
+  const auto first = std::find_if(columns.begin(), columns.end(),
+                                  [](const ForceColumn& c) { return c.name == std::string("ank"); });
+  const auto without_moments = [&](std::string line) {
+    return line.erase(15 + 7 * static_cast<std::size_t>(first - columns.begin()), 7 * 6);
+  };
   int lines = 0;
   for (std::string theirs, mine; std::getline(file, theirs) && std::getline(ours, mine); ++lines)
-    EXPECT_EQ(mine.substr(0, theirs.size()), theirs);
+    EXPECT_EQ(without_moments(mine.substr(0, theirs.size())), without_moments(theirs));
   EXPECT_EQ(lines, 4) << "head, two trials, means";
 }
 

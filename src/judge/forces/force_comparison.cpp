@@ -38,11 +38,12 @@ struct FeetSeries {
   Vector3d total(int t) const { return force[t][0] + force[t][1]; }
 };
 
-/// At the middles of the intervals; of the first frame at the frame.
+/// At the middles of the intervals that end at the frames; of the first frame as far before it.
 PerFrame<PerBody<Vector3d>> midway(const PerFrame<PerBody<Vector3d>>& joints) {
   PerFrame<PerBody<Vector3d>> middle = joints;
-  for (int t = 1; t < joints.count(); ++t)
-    for (int b = 0; b < kBodies; ++b) middle[t][b] = 0.5 * (joints[t][b] + joints[t - 1][b]);
+  for (int t = 0; t < joints.count() && joints.count() > 1; ++t)
+    for (int b = 0; b < kBodies; ++b)
+      middle[t][b] = joints[t][b] - 0.5 * (joints[std::max(t, 1)][b] - joints[std::max(t, 1) - 1][b]);
   return middle;
 }
 
@@ -345,8 +346,9 @@ void compare_moments(const ComparedForces& c, const audit::SimulatedFrames& moti
   if (std::none_of(c.b.pressure.begin(), c.b.pressure.end(),
                    [](const auto& feet) { return feet[0].allFinite() || feet[1].allFinite(); }))
     return;
+  const PerFrame<PerBody<Vector3d>> joints = midway(c.b.joints);  // where they are while the mean forces act
   const PerFrame<LegMoments> measured =
-      planar_moments({c.b.joints, c.b.newtons, c.b.pressure, c.axes, c.b.mass, motion.fps});
+      planar_moments({joints, c.b.newtons, c.b.pressure, c.axes, c.b.mass, motion.fps});
   const PerFrame<LegMoments> simulated = recorded_moments(motion);
   constexpr Array<const char*, 3> kNames = {"ank", "kne", "hip"};
   for (int joint = 0; joint < 3; ++joint) {
