@@ -103,11 +103,11 @@ int evaluate_published(const EvaluateArguments& a) {
 int evaluate_against_plates(const EvaluateArguments& a) {
   if (a.motions.size() > 1)
     throw std::invalid_argument("--forces compares one folder of --motions, or one file");
-  const auto rows = judge::evaluate_forces(a.forces, a.motions.front(),
-                                           a.read.mass.value_or(std::numeric_limits<double>::quiet_NaN()));
-  table_stream(a.json) << judge::format_forces(rows);
-  if (!a.json.empty()) write_json(a.json, judge::forces_json(rows));
-  return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.reason.empty(); })
+  const judge::ForceTable table = judge::evaluate_forces(
+      a.forces, a.motions.front(), a.read.mass.value_or(std::numeric_limits<double>::quiet_NaN()));
+  table_stream(a.json) << judge::format_forces(table);
+  if (!a.json.empty()) write_json(a.json, judge::forces_json(table));
+  return std::all_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.reason.empty(); })
              ? kAllGood
              : kSomeFailed;
 }
@@ -153,8 +153,8 @@ void declare_evaluate(CommandLine& line) {
   command
       .path("--forces", a->forces,
             "instead, forces that plates have measured, to compare the motions' forces with: .mot or .npz, "
-            "or a "
-            "folder of them, docs/forces.md; --mass is the mass of the person on the plates")
+            "or a folder of them; or moments of OpenSim's inverse dynamics, .sto; docs/forces.md. --mass is "
+            "the person's mass")
       .excludes(truth);
   command
       .paths("--motions", a->motions,

@@ -26,6 +26,7 @@
 #include "import/evidence/up_axis.h"
 #include "import/joint_positions.h"
 #include "import/motionx.h"
+#include "import/opensim/marker_joints.h"
 #include "import/plausibility.h"
 #include "import/retarget/person.h"
 #include "import/retarget/retarget.h"
@@ -37,10 +38,11 @@ namespace {
 
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
 constexpr std::string_view kHierarchy = "hierarchy";  // in any case
-constexpr std::size_t kHeaderBytes = 1024;            ///< an npy header fits in
-constexpr std::size_t kFirstBytes = 1024;             ///< bytes that identify a format
+constexpr std::string_view kPathFileType = "PathFileType";
+constexpr std::size_t kHeaderBytes = 1024;  ///< an npy header fits in
+constexpr std::size_t kFirstBytes = 1024;   ///< bytes that identify a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
-constexpr const char* kMotions = "a motion (npz, npy, BVH or DeepMimic)";
+constexpr const char* kMotions = "a motion (npz, npy, BVH, DeepMimic or .trc)";
 constexpr const char* kConverter =
     "tools/convert_video_results.py converts results of video estimators, and MDM's results.npy";
 constexpr double kFloorWorthSaying = 0.05;  ///< m
@@ -333,6 +335,11 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
       return retargeted(read_skeleton(bytes, path, o), "BVH", o);
     case MotionFormat::kDeepMimic:
       return retargeted(parse_deepmimic(bytes, path, o.fps), "DeepMimic", o);
+    case MotionFormat::kMarkers: {
+      ReadConfig metric = o;
+      metric.scale.reset();
+      return retargeted(skeleton_of_markers(bytes, name, path.string(), o.up, o.scale), "markers", metric);
+    }
     case MotionFormat::kUnknown:
       break;
   }
@@ -394,6 +401,7 @@ MotionFormat recognise(const std::string& bytes) {
     start = bytes.find_first_not_of(" \t\r\n", bytes.find_first_of("\r\n", start));
   if (start == std::string::npos) return MotionFormat::kUnknown;
   if (bytes[start] == '{') return MotionFormat::kDeepMimic;
+  if (bytes.compare(start, kPathFileType.size(), kPathFileType) == 0) return MotionFormat::kMarkers;
   if (lower_case(bytes.substr(start, kHierarchy.size())) == kHierarchy) return MotionFormat::kBvh;
   return MotionFormat::kUnknown;
 }
@@ -413,7 +421,8 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   repair_angles(path.string(), clip);
   const MotionFormat format = recognise(bytes);
   const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));
-  const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
+  const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic ||
+                        format == MotionFormat::kMarkers;
   const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
   if (!skeleton) {
     choose_body(config, clip);
@@ -446,7 +455,7 @@ bool is_motion_file(const std::filesystem::path& path) {
     const MotionFormat format = recognise(first_bytes(path, kFirstBytes));
     return format == MotionFormat::kDeepMimic || format == MotionFormat::kBvh;
   }
-  return is_written(suffix);
+  return is_written(suffix) || suffix == ".trc";
 }
 
 std::string lower_suffix(const std::filesystem::path& path) { return lower_case(path.extension().string()); }

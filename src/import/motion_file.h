@@ -2,7 +2,7 @@
 /// converted to our own. `Clip::decisions` lists everything that the reader decided.
 ///
 /// Formats: AMASS-like npz (clip.h), Motion-X npy (motionx.h), joint positions npy (joint_positions.h), BVH
-/// (bvh.h), DeepMimic JSON (deepmimic.h).
+/// (bvh.h), DeepMimic JSON (deepmimic.h), OpenSim's markers .trc (opensim/marker_joints.h).
 /// Traps and thresholds: docs/formats.md.
 ///
 /// Files of our own layout (body_model "mimicx") are trusted to be z up and in metres. The user's settings
@@ -41,7 +41,7 @@ struct ReadConfig {
 };
 
 /// The format of a file, by its first bytes.
-enum class MotionFormat { kNpz, kNpy, kBvh, kDeepMimic, kUnknown };
+enum class MotionFormat { kNpz, kNpy, kBvh, kDeepMimic, kMarkers, kUnknown };
 MotionFormat recognise(const std::string& bytes);
 
 /// @throws DataError for a file that cannot be read, std::invalid_argument for an invalid setting

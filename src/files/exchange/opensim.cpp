@@ -41,8 +41,14 @@ const Vector3d kAnkleAxis(-0.10501355, -0.17402245, 0.97912632);
 /// To our axes of a body, of the leg of a side.
 Vector3d from_segment(const Vector3d& v, bool right) { return {right ? -v.z() : v.z(), v.y(), v.x()}; }
 
-constexpr int kGaitMoments = 3;
-/// Moments of hip, knee and ankle of a leg by the coordinates of gait2392, N·m.
+bool rests_on_more_than_feet(const List<FloorForces>& floor) {
+  for (const FloorForces& row : floor)
+    if (!row[kOnTheRest].force.isZero(0.0)) return true;
+  return false;
+}
+
+}  // namespace
+
 Array<double, kGaitMoments> gait_moments(const BodyPoses& poses, const PerBody<Vector3d>& torque,
                                          bool right) {
   const int side = right ? 1 : 0;
@@ -56,13 +62,10 @@ Array<double, kGaitMoments> gait_moments(const BodyPoses& poses, const PerBody<V
           in_world(kLeftAnkle).dot(ankle)};
 }
 
-bool rests_on_more_than_feet(const List<FloorForces>& floor) {
-  for (const FloorForces& row : floor)
-    if (!row[kOnTheRest].force.isZero(0.0)) return true;
-  return false;
+std::string gait_moment_name(int joint, bool right) {
+  constexpr Array<const char*, kGaitMoments> kCoordinates = {"hip_flexion_", "knee_angle_", "ankle_angle_"};
+  return std::string(kCoordinates[joint]) + (right ? "r_moment" : "l_moment");
 }
-
-}  // namespace
 
 std::string format_mot(const motion::Clip& clip, const RecordedForces& forces) {
   const List<FloorForces> floor = floor_forces(motion::poses_of(clip), forces, clip.scene);
@@ -96,9 +99,8 @@ std::string format_sto(const motion::Clip& clip, const RecordedForces& forces) {
     else
       for (const char* axis : {"_moment_x", "_moment_y", "_moment_z"}) names.push_back(name + axis);
   }
-  for (const char* side : {"_r_moment", "_l_moment"})
-    for (const char* coordinate : {"hip_flexion", "knee_angle", "ankle_angle"})
-      names.push_back(std::string(coordinate) + side);
+  for (const bool right : {true, false})
+    for (int k = 0; k < kGaitMoments; ++k) names.push_back(gait_moment_name(k, right));
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   std::vector<Row> rows;
   for (int t = 1; t < clip.frames(); ++t) {

@@ -30,6 +30,13 @@ namespace mimicx::files {
 inline constexpr std::string_view kMotOpening = "mimicx ground reaction\nversion=1\n",
                                   kStoOpening = "mimicx joint moments\nversion=1\n";
 
+inline constexpr int kGaitMoments = 3;
+/// Moments of hip, knee and ankle of a leg by the coordinates of gait2392, N·m, as in the .sto.
+/// @param torque  `RecordedForces::torque`
+Array<double, kGaitMoments> gait_moments(const BodyPoses& poses, const PerBody<Vector3d>& torque, bool right);
+/// "hip_flexion_r_moment"
+std::string gait_moment_name(int joint, bool right);
+
 std::string format_mot(const motion::Clip& clip, const RecordedForces& forces);
 std::string format_sto(const motion::Clip& clip, const RecordedForces& forces);
 

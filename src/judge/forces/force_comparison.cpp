@@ -7,10 +7,13 @@
 
 #include "audit/audit_file.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "core/number_text.h"
 #include "core/units.h"
 #include "files/floor_forces.h"
 #include "judge/evaluate.h"
+#include "judge/forces/moment_comparison.h"
+#include "judge/forces/paired_series.h"
 #include "judge/forces/planar_moments.h"
 #include "motion/clip_file.h"
 #include "record/json.h"
@@ -38,11 +41,12 @@ struct FeetSeries {
   Vector3d total(int t) const { return force[t][0] + force[t][1]; }
 };
 
-/// At the middles of the intervals; of the first frame at the frame.
+/// At the middles of the intervals that end at the frames; of the first frame as far before it.
 PerFrame<PerBody<Vector3d>> midway(const PerFrame<PerBody<Vector3d>>& joints) {
   PerFrame<PerBody<Vector3d>> middle = joints;
-  for (int t = 1; t < joints.count(); ++t)
-    for (int b = 0; b < kBodies; ++b) middle[t][b] = 0.5 * (joints[t][b] + joints[t - 1][b]);
+  for (int t = 0; t < joints.count() && joints.count() > 1; ++t)
+    for (int b = 0; b < kBodies; ++b)
+      middle[t][b] = joints[t][b] - 0.5 * (joints[std::max(t, 1)][b] - joints[std::max(t, 1) - 1][b]);
   return middle;
 }
 
@@ -135,47 +139,6 @@ void put_in_weights(const PerFrame<Matrix3d>& axes, FeetSeries& series) {
   }
 }
 
-using Values = std::vector<double>;
-
-double mean_of_values(const Values& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return values.empty() ? kNone : sum / static_cast<double>(values.size());
-}
-double rms_of(const Values& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? kNone : std::sqrt(sum / static_cast<double>(values.size()));
-}
-double spread_of(const Values& values) {
-  const double mean = mean_of_values(values);
-  Values away;
-  for (const double v : values) away.push_back(v - mean);
-  return rms_of(away);
-}
-
-/// Two series of the same frames.
-struct Against {
-  Values a, b;
-  void add(double ours, double theirs) {
-    a.push_back(ours);
-    b.push_back(theirs);
-  }
-  Values difference() const {
-    Values d;
-    for (std::size_t i = 0; i < a.size(); ++i) d.push_back(a[i] - b[i]);
-    return d;
-  }
-  double rms() const { return rms_of(difference()); }
-  double correlation() const {
-    const double sa = spread_of(a), sb = spread_of(b), ma = mean_of_values(a), mb = mean_of_values(b);
-    if (a.size() <= 3 || !(sa > 1e-6) || !(sb > 1e-6)) return kNone;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - ma) * (b[i] - mb);
-    return sum / static_cast<double>(a.size()) / (sa * sb);
-  }
-};
-
 /// A simulated motion and its measurement over their common frames.
 struct ComparedForces {
   FeetSeries a, b;  ///< simulated, measured
@@ -193,7 +156,7 @@ struct ComparedForces {
 using Named = std::map<std::string, double>;
 
 void compare_totals(const ComparedForces& c, Named& out) {
-  Array<Against, 3> total;
+  Array<PairedSeries, 3> total;
   Values norms;
   double ours = 0.0, theirs = 0.0;
   int count = 0;
@@ -216,7 +179,7 @@ void compare_totals(const ComparedForces& c, Named& out) {
 }
 
 void compare_feet(const ComparedForces& c, Named& out) {
-  Array<Against, 3> foot_force;
+  Array<PairedSeries, 3> foot_force;
   for (int t = 0; t < c.frames(); ++t)
     for (int foot = 0; foot < 2; ++foot)
       if (c.counts[t][foot])
@@ -307,7 +270,7 @@ void compare_double_support(const ComparedForces& c, const PerFrame<audit::LoadS
                             Named& out) {
   constexpr double kSlack = 0.05;       // of the load
   constexpr double kLeastTotal = 0.05;  // body weights
-  Against share, effort;
+  PairedSeries share, effort;
   Values ours, theirs, widths;
   int within = 0;
   for (int t = 0; t < c.frames(); ++t) {
@@ -345,12 +308,13 @@ void compare_moments(const ComparedForces& c, const audit::SimulatedFrames& moti
   if (std::none_of(c.b.pressure.begin(), c.b.pressure.end(),
                    [](const auto& feet) { return feet[0].allFinite() || feet[1].allFinite(); }))
     return;
+  const PerFrame<PerBody<Vector3d>> joints = midway(c.b.joints);  // where they are while the mean forces act
   const PerFrame<LegMoments> measured =
-      planar_moments({c.b.joints, c.b.newtons, c.b.pressure, c.axes, c.b.mass, motion.fps});
+      planar_moments({joints, c.b.newtons, c.b.pressure, c.axes, c.b.mass, motion.fps});
   const PerFrame<LegMoments> simulated = recorded_moments(motion);
   constexpr Array<const char*, 3> kNames = {"ank", "kne", "hip"};
   for (int joint = 0; joint < 3; ++joint) {
-    Against moments;
+    PairedSeries moments;
     for (int t = 0; t < c.frames(); ++t)
       for (int foot = 0; foot < 2; ++foot)
         if (c.counts[t][foot]) moments.add(simulated[t][foot][joint], measured[t][foot][joint]);
@@ -402,21 +366,28 @@ ComparedForces common_frames(const audit::SimulatedFrames& motion, const import:
   return c;
 }
 
+bool is_inverse_dynamics(const std::filesystem::path& file) { return import::lower_suffix(file) == ".sto"; }
+
 /// Measurements of a folder, or the single file, by name.
 std::map<std::string, std::filesystem::path> named_measurements(const std::filesystem::path& path) {
   std::map<std::string, std::filesystem::path> named;
   const auto add = [&](const std::filesystem::path& file) {
     std::string name = file.stem().string();
-    if (name.ends_with("_grf")) name.resize(name.size() - 4);
+    for (const std::string_view end : {"_grf", "_ID"})
+      if (name.ends_with(end)) name.resize(name.size() - end.size());
     named[name] = file;
   };
   if (!std::filesystem::is_directory(path)) {
     add(path);
     return named;
   }
-  for (const auto& entry : std::filesystem::directory_iterator(path)) {
-    const std::string suffix = import::lower_suffix(entry.path());
-    if (entry.is_regular_file() && (suffix == ".npz" || suffix == ".mot")) add(entry.path());
+  for (const bool moments : {false, true}) {
+    for (const auto& entry : std::filesystem::directory_iterator(path)) {
+      const std::string suffix = import::lower_suffix(entry.path());
+      const bool wanted = moments ? suffix == ".sto" : suffix == ".npz" || suffix == ".mot";
+      if (entry.is_regular_file() && wanted) add(entry.path());
+    }
+    if (!named.empty()) break;
   }
   return named;
 }
@@ -428,8 +399,12 @@ ForceRow row_of_forces(const std::string& name, const std::filesystem::path& mea
   try {
     if (motion.empty()) throw DataError(measured.string(), "", "a motion for this measurement", "none");
     const Npz npz = read_npz(motion);
-    row.values = compare_forces(audit::simulated_frames(motion::clip_from(npz, name), npz),
-                                import::read_measured_forces(measured), mass);
+    const audit::SimulatedFrames frames = audit::simulated_frames(motion::clip_from(npz, name), npz);
+    row.values =
+        is_inverse_dynamics(measured)
+            ? compare_inverse_dynamics(frames, import::parse_storage(read_file(measured), measured.string()),
+                                       mass, measured.string())
+            : compare_forces(frames, import::read_measured_forces(measured), mass);
   } catch (const std::exception& error) {
     row.reason = reason_of(error);
   }
@@ -501,6 +476,30 @@ const std::vector<ForceColumn>& force_columns() {
   return columns;
 }
 
+const std::vector<ForceColumn>& moment_columns() {
+  static const std::vector<ForceColumn> columns = {{"n", "%.0f", "frames that both have"},
+                                                   {"kg", "%.0f", "mass of the simulated body"},
+                                                   {"hip", "%.2f", "hip flexion, both legs, RMSE, N·m/kg"},
+                                                   {"hip r", "%.2f", "its correlation"},
+                                                   {"knee", "%.2f", "the same at the knee"},
+                                                   {"knee r", "%.2f", "its correlation"},
+                                                   {"ankle", "%.2f", "the same at the ankle"},
+                                                   {"ankle r", "%.2f", "its correlation"},
+                                                   {"hipL", "%.2f", "the same of the left leg"},
+                                                   {"hipL r", "%.2f", "its correlation"},
+                                                   {"kneeL", "%.2f", "the same of the left leg"},
+                                                   {"kneeL r", "%.2f", "its correlation"},
+                                                   {"ankleL", "%.2f", "the same of the left leg"},
+                                                   {"ankleL r", "%.2f", "its correlation"},
+                                                   {"hipR", "%.2f", "the same of the right leg"},
+                                                   {"hipR r", "%.2f", "its correlation"},
+                                                   {"kneeR", "%.2f", "the same of the right leg"},
+                                                   {"kneeR r", "%.2f", "its correlation"},
+                                                   {"ankleR", "%.2f", "the same of the right leg"},
+                                                   {"ankleR r", "%.2f", "its correlation"}};
+  return columns;
+}
+
 std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
                                    const import::MeasuredForces& measured, double mass) {
   const ComparedForces c = common_frames(motion, measured, mass);
@@ -521,27 +520,30 @@ std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
   return values;
 }
 
-std::vector<ForceRow> evaluate_forces(const std::filesystem::path& measured,
-                                      const std::filesystem::path& motions, double mass) {
+ForceTable evaluate_forces(const std::filesystem::path& measured, const std::filesystem::path& motions,
+                           double mass) {
   if (!std::filesystem::exists(measured))
     throw DataError(measured.string(), "", "measured forces: a folder, or one file", "no such path");
   const auto measurements = named_measurements(measured);
-  if (measurements.empty()) throw DataError(measured.string(), "", ".npz or .mot files", "none");
+  if (measurements.empty()) throw DataError(measured.string(), "", ".npz, .mot or .sto files", "none");
   const auto named = named_motions(motions);
   const bool two_files = !std::filesystem::is_directory(measured) && named.size() == 1;
-  std::vector<ForceRow> rows;
+  ForceTable table{is_inverse_dynamics(measurements.begin()->second) ? &moment_columns() : &force_columns(),
+                   {}};
   for (const auto& [name, file] : measurements) {
     const auto at = two_files ? named.begin() : named.find(name);
-    rows.push_back(row_of_forces(name, file, at == named.end() ? std::filesystem::path() : at->second, mass));
+    table.rows.push_back(
+        row_of_forces(name, file, at == named.end() ? std::filesystem::path() : at->second, mass));
   }
-  return rows;
+  return table;
 }
 
-std::string format_forces(const std::vector<ForceRow>& rows) {
+std::string format_forces(const ForceTable& table) {
+  const auto& [columns, rows] = table;
   constexpr std::size_t kName = 15;
   std::string text = padded("trial", kName);
   char head[72];
-  for (const ForceColumn& column : force_columns()) {
+  for (const ForceColumn& column : *columns) {
     std::snprintf(head, sizeof head, " %6s", printed_name(column).c_str());
     text += head;
   }
@@ -552,27 +554,27 @@ std::string format_forces(const std::vector<ForceRow>& rows) {
       text += " failed: " + row.reason + '\n';
       continue;
     }
-    for (std::size_t k = 0; k < row.values.size(); ++k) text += cell(force_columns()[k], row.values[k]);
+    for (std::size_t k = 0; k < row.values.size(); ++k) text += cell((*columns)[k], row.values[k]);
     text += '\n';
   }
   text += padded("mean", kName);
-  for (std::size_t k = 0; k < force_columns().size(); ++k)
-    text += cell(force_columns()[k], column_mean(rows, k));
+  for (std::size_t k = 0; k < columns->size(); ++k) text += cell((*columns)[k], column_mean(rows, k));
   return text + '\n';
 }
 
-std::string forces_json(const std::vector<ForceRow>& rows) {
+std::string forces_json(const ForceTable& table) {
+  const auto& [columns, rows] = table;
   record::Json json = {{"columns", record::Json::array()}, {"motions", record::Json::array()}};
   record::Json mean = record::Json::object();
-  for (std::size_t k = 0; k < force_columns().size(); ++k) {
-    const ForceColumn& column = force_columns()[k];
+  for (std::size_t k = 0; k < columns->size(); ++k) {
+    const ForceColumn& column = (*columns)[k];
     json["columns"].push_back({{"name", column.name}, {"meaning", column.meaning}});
     mean[column.name] = record::number(column_mean(rows, k));
   }
   for (const ForceRow& row : rows) {
     record::Json values = record::Json::object();
     for (std::size_t k = 0; k < row.values.size(); ++k)
-      values[force_columns()[k].name] = record::number(row.values[k]);
+      values[(*columns)[k].name] = record::number(row.values[k]);
     json["motions"].push_back({{"name", row.name}, {"reason", row.reason}, {"values", values}});
   }
   json["mean"] = mean;

@@ -1,4 +1,5 @@
-/// Forces of simulated motions against forces that plates have measured: `mimicx evaluate --forces`.
+/// Forces of simulated motions against forces that plates have measured, and their moments against those of
+/// OpenSim's inverse dynamics: `mimicx evaluate --forces`.
 ///
 /// Definitions and columns: docs/forces.md. Forces are means over the motion's intervals, in each body's own
 /// weight, along (forward, left, up) of the hips. Frames 0 and 1 and the last one do not count, nor do frames
@@ -22,6 +23,8 @@ struct ForceColumn {
   const char* meaning;  ///< with its unit
 };
 const std::vector<ForceColumn>& force_columns();
+/// Of a comparison with OpenSim's inverse dynamics (moment_comparison.h).
+const std::vector<ForceColumn>& moment_columns();
 
 struct ForceRow {
   std::string name;
@@ -29,19 +32,25 @@ struct ForceRow {
   std::vector<double> values;  ///< per column; NaN: none
 };
 
+struct ForceTable {
+  const std::vector<ForceColumn>* columns;
+  std::vector<ForceRow> rows;
+};
+
 /// @param mass  of the person, kg; NaN: that of the measurement, or else the plates' mean load
 /// @throws DataError if the two have fewer than five frames in common
 std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
                                    const import::MeasuredForces& measured, double mass);
 
-/// Pairs files of the same name ("walk" also for walk_grf.mot) in two folders, or two files.
+/// Pairs files of the same name ("walk" also for walk_grf.mot and walk_ID.sto) in two folders, or two files.
+/// A .sto, and a folder without .npz and .mot but with these, is compared by `moment_columns()`.
 /// @throws DataError for a missing path, and if there is no measurement
-std::vector<ForceRow> evaluate_forces(const std::filesystem::path& measured,
-                                      const std::filesystem::path& motions, double mass);
+ForceTable evaluate_forces(const std::filesystem::path& measured, const std::filesystem::path& motions,
+                           double mass);
 
 /// A line per motion and one of means.
-std::string format_forces(const std::vector<ForceRow>& rows);
+std::string format_forces(const ForceTable& table);
 /// {"columns": [{name, meaning}], "motions": [{name, reason, values}], "mean"}
-std::string forces_json(const std::vector<ForceRow>& rows);
+std::string forces_json(const ForceTable& table);
 
 }  // namespace mimicx::judge
