@@ -151,6 +151,34 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
     report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(height));
 }
 
+/// A difference of the first two frames is the velocity between them, and in flight gravity changes it by g/2
+/// of a frame until then. A motion that begins in the air gets the velocity of the parabola from its first
+/// frame on that is nearest to the centre of mass: c_t = c_0 + v s_t − g s_t²/2 at the times s_t.
+void begin_in_flight(Reference& reference) {
+  constexpr double kClearance = 0.03;        // m
+  constexpr int kFewest = 4;                 // frames in the air
+  constexpr double kSlack = 0.3 * kGravity;  // a fall has the acceleration of gravity but for this, m/s²
+  const PerFrame<double> lowest =
+      lowest_heights(surface_points(reference.character), reference.poses, reference.scene);
+  int flight = 0;
+  while (flight < reference.size() && lowest[flight] > kClearance) ++flight;
+  if (flight < kFewest) return;
+  const auto centre = [&](int t) { return center_of_mass(reference.character, reference.poses[t]); };
+  const double fps = reference.fps;
+  const Vector3d first = fps * (centre(1) - centre(0)),
+                 last = fps * (centre(flight - 1) - centre(flight - 2));
+  const double acceleration = (last - first).z() * fps / (flight - 2);
+  if (std::abs(acceleration + kGravity) > kSlack) return;
+  Vector3d sum = Vector3d::Zero();
+  double squares = 0.0;
+  for (int t = 1; t < flight; ++t) {
+    const double s = t / fps;
+    sum += s * (centre(t) - centre(0) + 0.5 * kGravity * s * s * Vector3d::UnitZ());
+    squares += s * s;
+  }
+  reference.frames[0].v_root += sum / squares - first;
+}
+
 }  // namespace
 
 Reference prepare_reference(const Clip& clip, const PreparationConfig& config, PreparationReport* report) {
@@ -199,6 +227,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
     r.feet_planted_mm = kMm * plant_feet(find_stance(out.character, out.poses, out.fps, out.scene), out);
   if (config.ranges) turn_back_into_ranges(config.ground, out);
   differentiate(out.frames, out.fps);
+  if (config.ground) begin_in_flight(out);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;
   r.change_max_mm = change.max;

@@ -42,7 +42,8 @@ struct PreparationConfig {
 };
 
 /// Resamples the clip, bridges implausible frames, turns knees and elbows into hinges, brings joints into
-/// their ranges, levels the feet, puts the motion on the floor and differentiates it.
+/// their ranges, levels the feet, puts the motion on the floor and differentiates it. A motion that begins in
+/// the air begins with the velocity of its flight.
 /// @param report  may be null
 /// @throws DataError for fewer than 2 frames or non-finite values.
 Reference prepare_reference(const Clip& clip, const PreparationConfig& config, PreparationReport* report);

@@ -61,6 +61,26 @@ TEST(Prepare, KeepsABallisticJump) {
     }
 }
 
+/// Heights over the floor that begin in the air, with the upward speed and acceleration, and end standing.
+std::vector<double> fall_heights(int frames, double height, double speed, double acceleration) {
+  std::vector<double> z;
+  for (int t = 0; t < frames; ++t) {
+    const double s = t / 30.0;
+    z.push_back(std::max(0.0, height + speed * s + 0.5 * acceleration * s * s));
+  }
+  return z;
+}
+
+TEST(Prepare, AMotionThatBeginsInTheAirHasTheVelocityOfItsFlight) {
+  const auto beginning = [](double acceleration) {
+    const Clip standing = test::standing_clip(90, test::standing_height());
+    return prepare_reference(lifted(standing, fall_heights(90, 0.3, 1.0, acceleration)), {}, nullptr).frames;
+  };
+  EXPECT_NEAR(beginning(-9.81)[0].v_root.z(), 1.0, 1e-9);
+  const auto held = beginning(-4.0);  // no fall: the difference stays
+  EXPECT_NEAR(held[0].v_root.z(), 30.0 * (held[1].p_root - held[0].p_root).z(), 1e-9);
+}
+
 TEST(Prepare, BoundsPenetrationOfARandomMotion) {
   for (std::uint64_t seed = 1; seed < 6; ++seed) {
     const Reference r = prepare_reference(test::random_clip(seed, 90, 0.3), {}, nullptr);
