@@ -140,7 +140,7 @@ static const char *open_file(Check *check, const Byte *bytes, size_t size) {
     if (size < PLATES_START + STATE_SIZE + HASH_SIZE) return "shorter than a certificate";
     uint64_t start = integer_at(bytes + 12, 4), steps = integer_at(bytes + 24, 8), name = integer_at(bytes + 44, 4);
     uint64_t frame_steps = integer_at(bytes + 32, 4), plates = integer_at(bytes + 36, 4);
-    if (integer_at(bytes + 8, 4) != 2) return "a version of the format other than 2";
+    if (integer_at(bytes + 8, 4) != 3) return "a version of the format other than 3";
     if (integer_at(bytes + 16, 8) != size) return "size differs from the recorded one";
     if (plates > MOST_PLATES) return "more than 64 plates";
     if (integer_at(bytes + 40, 4) != POINTS) return "another number of contact points";

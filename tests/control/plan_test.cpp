@@ -131,7 +131,7 @@ TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   EXPECT_TRUE(plan.by_assisted_stages);
   EXPECT_FALSE(plan.failure);
   EXPECT_EQ(plan.states.size(), 50u);
-  EXPECT_LT(plan.worst_distance, 0.35);
+  EXPECT_LT(plan.worst_distance, 0.4) << "as far is a body that does not leave the floor";
 }
 
 // The assistive acceleration is that of the reference plus gravity.

@@ -14,7 +14,7 @@ struct OptionSetChoice : testing::Test {
   using Set = std::shared_ptr<const options::OptionSet>;
 
   /// Two options without encoders, the first of which falls at once and the second of which always does this.
-  /// 0 follows, 0.6 falls and 1.5 falls at once.
+  /// 0 follows, 0.2 falls and 1.5 falls at once.
   static Set set_of(float action) {
     options::OptionSet set;
     for (const float always : {-1.5F, action}) {
@@ -67,7 +67,7 @@ TEST_F(OptionSetChoice, ArrangementIsThatOfTheSetAlone) {
 TEST_F(OptionSetChoice, TakesTheBestIfNoneFollowsAndTheFirstOfEquals) {
   EXPECT_EQ(choose({set_of(1.5F), set_of(1.5F)}).set, 0);
   EXPECT_FALSE(choose({set_of(1.5F), set_of(1.5F)}).success);
-  const Set falls = set_of(1.5F), falls_later = set_of(0.6F);
+  const Set falls = set_of(1.5F), falls_later = set_of(0.2F);
   EXPECT_EQ(choose({falls, falls_later}).set, 1);
   EXPECT_EQ(choose({falls_later, falls}).set, 0);
   EXPECT_THROW(choose({}), std::invalid_argument);

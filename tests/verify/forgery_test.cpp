@@ -450,7 +450,7 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
         break;
       case 3:
         set_integer(file, 8, 3 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "a version of the format other than 2";
+        wanted = "a version of the format other than 3";
         break;
       case 4:
         file += std::string(1 + static_cast<std::size_t>(random.uniform() * 100), 'x');

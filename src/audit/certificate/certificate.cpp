@@ -22,7 +22,7 @@ namespace mimicx::audit {
 namespace {
 
 constexpr std::string_view kMagic = "MIMICERT";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kFixed = 80, kHash = 32;
 constexpr double kEdge = 1e-6;  ///< of touching, within which float32 decides, m
 constexpr std::size_t kPoints = 37, kPlateNumbers = 8;
@@ -302,7 +302,7 @@ std::string certify_file(const std::filesystem::path& path) {
 CertificateReplay replay_certificate(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const auto refuse = [&](const std::string& found) {
-    throw DataError(path.string(), "", "a certificate of version 2", found);
+    throw DataError(path.string(), "", "a certificate of version 3", found);
   };
   if (bytes.size() < kFixed + 8 * (kHead + kState) + kHash || !bytes.starts_with(kMagic))
     refuse("another file");

@@ -3,10 +3,9 @@
 ///     hip       regression on the distances between both ASIS and from ASIS to PSIS (or the sacrum):
 ///               M. E. Harrington et al., J. Biomech. 40 (2007): in the frame of the pelvis, from the middle
 ///               of the ASIS, mm: forward −0.24 PD − 9.9, up −0.30 PW − 10.9, outwards 0.33 PW + 7.3
-///     knee      middle of the epicondyles. With the lateral one alone, the point of the line through it
-///     along
-///               the pelvis' transverse axis; without, the point of the knee's functional axis
-///               (functional_axis.h) that is nearest to the line from hip to ankle
+///     knee      middle of the epicondyles. With the lateral one alone, the point of the line
+///               through it along the pelvis' transverse axis; without, the point of the knee's functional
+///               axis (functional_axis.h) that is nearest to the line from hip to ankle
 ///     ankle     middle of the malleoli. With the lateral one alone, the point of the same line through it;
 ///               without, the point of the ankle's functional axis that lies in the plane of hip, heel and
 ///               toes
