@@ -10,14 +10,14 @@
 namespace mimicx::import {
 namespace {
 
-struct Row {
+struct LandmarkWords {
   Landmark landmark;
   const char* place;  ///< for messages
   std::vector<std::string_view> words;
 };
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> table = {
+const std::vector<LandmarkWords>& rows() {
+  static const std::vector<LandmarkWords> table = {
       {kAsis, "anterior superior iliac spine (ASIS)", {"asis", "asi"}},
       {kPsis, "posterior superior iliac spine (PSIS)", {"psis", "psi"}},
       {kSacrum, "sacrum", {"sacrum", "sacral", "vsacral", "sacr", "s2"}},
@@ -60,7 +60,7 @@ bool names_segment(std::string_view core, std::string_view word) {
 }
 
 std::optional<Landmark> landmark_of(std::string_view core) {
-  for (const Row& row : rows())
+  for (const LandmarkWords& row : rows())
     for (const std::string_view word : row.words)
       if (core == word ||
           ((row.landmark == kThighMarker || row.landmark == kShankMarker) && names_segment(core, word)))
