@@ -11,16 +11,13 @@
 #include "import/motion_file.h"
 #include "import/opensim/functional_axis.h"
 #include "import/text_input.h"
-#include "synth/synthesize.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::import {
 namespace {
 
 motion::Clip walking() {
-  synth::SynthConfig config;
-  config.kind = "walk";
-  config.seed = 3;
-  motion::Clip clip = synth::synthesize(config);
+  motion::Clip clip = test::synthetic_clip("walk", 3);
   clip.keypoints.reset();
   return clip;
 }

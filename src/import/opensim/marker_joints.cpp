@@ -34,11 +34,16 @@ double mean_distance(const Track& a, const Track& b) {
   return sum / static_cast<double>(a.size());
 }
 
+/// The direction of a vector's part across a unit vector.
+Vector3d direction_across(const Vector3d& v, const Vector3d& axis) {
+  return (v - v.dot(axis) * axis).normalized();
+}
+
 /// Columns: to the left, up, forward; up is exact.
 Matrix3d axes_of(const Vector3d& left, const Vector3d& up) {
   Matrix3d axes;
   axes.col(1) = up.normalized();
-  axes.col(0) = (left - left.dot(axes.col(1)) * axes.col(1)).normalized();
+  axes.col(0) = direction_across(left, axes.col(1));
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
 }
@@ -82,8 +87,7 @@ class Joints {
     for (int t = 0; t < frames_; ++t) {
       Matrix3d axes;
       axes.col(0) = (left[t] - right[t]).normalized();
-      const Vector3d ahead = front[t] - back[t];
-      axes.col(2) = (ahead - ahead.dot(axes.col(0)) * axes.col(0)).normalized();
+      axes.col(2) = direction_across(front[t] - back[t], axes.col(0));
       axes.col(1) = axes.col(2).cross(axes.col(0));
       p[kLeftHip].push_back(front[t] + axes * Vector3d(out, up, forward));
       p[kRightHip].push_back(front[t] + axes * Vector3d(-out, up, forward));

@@ -6,16 +6,13 @@
 #include "import/bvh_write.h"
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
-#include "synth/synthesize.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::import {
 namespace {
 
 motion::Clip walk() {
-  synth::SynthConfig config;
-  config.kind = "walk";
-  config.seed = 3;
-  motion::Clip clip = synth::synthesize(config);
+  motion::Clip clip = test::synthetic_clip("walk", 3);
   clip.keypoints.reset();
   return clip;
 }
