@@ -45,6 +45,23 @@ double Scene::clearance(const Vector3d& p) const {
   return z < 0.0 ? std::min(0.0, z + plate->give()) : z;
 }
 
+WayOut Scene::way_out(const Vector3d& centre, double radius) const {
+  WayOut deepest;
+  for (const Plate& plate : plates) {
+    if (plate.stiffness < kSolid) continue;
+    const Vector3d first(cos(plate.yaw), sin(plate.yaw), 0.0), second(-first.y(), first.x(), 0.0);
+    const Vector3d from = centre - Vector3d(plate.centre.x(), plate.centre.y(), plate.height - kReach);
+    const double x = from.dot(first), y = from.dot(second);
+    const WayOut along{plate.half_extents.x() + radius - std::abs(x), x < 0.0 ? Vector3d(-first) : first},
+        across{plate.half_extents.y() + radius - std::abs(y), y < 0.0 ? Vector3d(-second) : second},
+        up{radius - from.z(), Vector3d::UnitZ()};
+    const WayOut shortest =
+        std::min({along, across, up}, [](const WayOut& a, const WayOut& b) { return a.depth < b.depth; });
+    if (shortest.depth > deepest.depth) deepest = shortest;
+  }
+  return deepest;
+}
+
 void require_scene(const Scene& scene, const std::string& name) {
   if (scene.plates.count() > kMaxPlates)
     raise(DataError(name, "", "at most " + std::to_string(kMaxPlates) + " plates",

@@ -4,7 +4,10 @@
 /// A plate carries what is over it or at most `kReach` under its top face. A point that is farther below is
 /// beside the box or under it, and the plate is not there for it. Where plates overlap, the highest counts.
 ///
-/// What it does not have: side faces, slopes, ground that moves, ground below z = 0.
+/// Sides carry nothing. References and plans keep the legs out of those of stiff plates (`way_out`); softer
+/// ones are seats and beds, under which feet may be.
+///
+/// What it does not have: slopes, ground that moves, ground below z = 0.
 #pragma once
 
 #include <string>
@@ -31,6 +34,12 @@ struct Plate {
   double give() const;
 };
 
+/// The shortest way of a sphere out of the side of a box.
+struct WayOut {
+  double depth = 0.0;                     ///< m; 0: it is in no side
+  Vector3d direction = Vector3d::Zero();  ///< by depth · direction the sphere has to move
+};
+
 struct Scene {
   List<Plate> plates;
 
@@ -45,7 +54,17 @@ struct Scene {
   /// deeper than it gives is on it: 0; deeper points count from there.
   double clearance(const Vector3d& p) const;
 
+  /// With the centre's offset (x, y) from the middle of a plate along its sides, half extents a and the top
+  /// H,
+  ///
+  ///     depth = max(0, min(a_x + r − |x|, a_y + r − |y|, H − kReach + r − z))
+  ///
+  /// of the plate of at least `kSolid` that the sphere is deepest in: to the sides or up, where contact is.
+  /// @param radius  r, m
+  WayOut way_out(const Vector3d& centre, double radius) const;
+
   static constexpr double kReach = 0.08;  ///< m
+  static constexpr double kSolid = 1e5;   ///< least stiffness of a box with sides, N/m
 };
 
 inline constexpr int kMaxPlates = 64;  ///< of a scene

@@ -1,6 +1,7 @@
 #include "control/centroidal_momentum.h"
 
 #include "control/analytic/rotation_derivatives.h"
+#include "physics/lanes.h"
 
 namespace mimicx::control {
 namespace {

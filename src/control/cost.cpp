@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "control/box_sides.h"
 #include "control/centroidal_momentum.h"
 #include "control/sole_slip.h"
 #include "core/error.h"
@@ -37,8 +38,8 @@ bool is_foot(std::size_t i) {
 void check(const CostWeights& w) {
   const auto bad = [](double value) { return !(value >= 0.0 && std::isfinite(value)); };
   for (double value : {w.position, w.root_rotation, w.joint_rotation, w.root_velocity, w.root_spin,
-                       w.joint_velocity, w.com_velocity, w.angular_momentum, w.slip, w.torque, w.residual,
-                       w.change, w.assistance, w.assistance_spin})
+                       w.joint_velocity, w.com_velocity, w.angular_momentum, w.slip, w.box_sides, w.torque,
+                       w.residual, w.change, w.assistance, w.assistance_spin})
     if (bad(value)) raise(std::invalid_argument("weights of the cost must not be negative"));
   for (std::size_t i = 0; i < kBodies; ++i)
     if (bad(w.body_position[i]) || bad(w.body_rotation[i]))
@@ -52,9 +53,10 @@ Vector6d vector_of(const CentroidalMomentum<double>& momentum) {
   return out;
 }
 
-/// Adds the momentum's term, a square of rank six, and the soles' terms.
-void add_velocity_terms(const System& system, const Cost& cost, int frame, const State<double>& x,
-                        StateQuadratic& out) {
+/// Adds the momentum's term, a square of rank six, and those of the legs in the sides of boxes and of the
+/// soles.
+void add_momentum_and_contact_terms(const System& system, const Cost& cost, int frame, const State<double>& x,
+                                    StateQuadratic& out) {
   const auto d = std::make_unique<Data<double>>();
   update_kinematics(system.exact_model, x, *d);
   const auto add = [&](const auto& J, const auto& error, const auto& weight) {
@@ -68,6 +70,11 @@ void add_velocity_terms(const System& system, const Cost& cost, int frame, const
   if (!weight.isZero(0.0))
     add(centroidal_jacobian(system.exact_model, *d),
         Vector6d(vector_of(centroidal_momentum(system.exact_model, *d)) - cost.momentum[frame]), weight);
+  if (cost.weights.box_sides > 0.0 && has_sides(system)) {
+    const SideDepths sides = side_depths(system, *d);
+    const Eigen::Matrix<double, kLegSpheres, 1> each = decltype(each)::Constant(cost.weights.box_sides);
+    if (!sides.depth.isZero(0.0)) add(sides.by_tangent, sides.depth, each);
+  }
   if (!(cost.weights.slip > 0.0)) return;
   Eigen::Matrix<double, 2 * kFootPoints, 1> slip, slip_weight;
   slip_weight.setConstant(cost.slip_weight());
@@ -180,6 +187,10 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
     out.cost += P(cost.momentum_weight(frame, 0)) * square_of(now.linear, goal.head<3>()) +
                 P(cost.momentum_weight(frame, 3)) * square_of(now.angular, goal.tail<3>());
   }
+  if (cost.weights.box_sides > 0.0 && has_sides(system)) {
+    for (const P& depth : depths_in_sides(system, scratch))
+      out.cost += P(cost.weights.box_sides) * depth * depth;
+  }
   if (cost.weights.slip > 0.0) {
     for (const Vec3<P>& slip : sole_slip(system, scratch))
       out.cost += P(cost.slip_weight()) * dot(slip, slip);
@@ -233,7 +244,7 @@ StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame
     out.gradient[k] += 2.0 * w * e;
     out.hessian(k, k) += 2.0 * w;
   }
-  add_velocity_terms(system, cost, frame, x, out);
+  add_momentum_and_contact_terms(system, cost, frame, x, out);
   return out;
 }
 

@@ -1,7 +1,8 @@
 /// The cost of a plan: a sum of squares over frames, with its gradient and Gauss–Newton Hessian.
 ///
 ///     J = Σ_t  Σ_i w_i c_ti ‖p_ti − p*_ti‖²  +  Σ_k d_tk (x_t ⊖ x*_t)_k²
-///              + m_t (w_c ‖v_t − v*_t‖² + w_L ‖ℓ_t − ℓ*_t‖²)  +  2 w_s/n Σ_j ‖r_tj‖²  +  w_τ ‖K e_t/m‖²
+///              + m_t (w_c ‖v_t − v*_t‖² + w_L ‖ℓ_t − ℓ*_t‖²)  +  2 w_s/n Σ_j ‖r_tj‖²  +  w_b Σ_j o_tj²
+///              + w_τ ‖K e_t/m‖²
 ///              + w_u ‖u_t‖²  +  w_Δ ‖u_t − u_{t−1}‖²  +  w_h ‖h_t‖²
 ///
 /// p_i are the joint centres in the world, * marks the goal, u are the residuals, h the assistive
@@ -11,9 +12,10 @@
 ///
 /// v and ℓ are the velocity of the centre of mass and the angular momentum about it per unit of mass
 /// (centroidal_momentum.h): their changes are the forces of the floor. r_j is the slip of
-/// the n points of the soles (sole_slip.h). K e/m are the PD controllers' elastic torques per unit of mass:
-/// stiffness times the distance of a joint from its target, moved ahead by its damping. The factors c and m
-/// say what is known of the reference in a frame (FrameFactors).                       docs/control.md §6
+/// the n points of the soles (sole_slip.h), o_j the depth of the legs in the sides of boxes (box_sides.h). K
+/// e/m are the PD controllers' elastic torques per unit of mass: stiffness times the distance of a joint from
+/// its target, moved ahead by its damping. The factors c and m say what is known of the reference in a frame
+/// (FrameFactors).                       docs/control.md §6
 #pragma once
 
 #include <Eigen/Core>
@@ -34,6 +36,7 @@ struct CostWeights {
   double com_velocity = 1000.0;      ///< of the centre of mass, s²/m²
   double angular_momentum = 1000.0;  ///< about the centre of mass, of its value per mass, s²/m⁴
   double slip = 500.0;               ///< of the mean square slip of a sole, s²/m²
+  double box_sides = 5000.0;         ///< of a sphere's depth in the side of a box, 1/m²
   double torque = 0.3;               ///< of the elastic torques per mass, s⁴/m⁴
   double residual = 0.02;            ///< 1/rad²
   double change = 64.0;              ///< of the residual from frame to frame, 1/rad²

@@ -7,6 +7,25 @@
 
 namespace mimicx::control {
 
+namespace {
+
+Array<LegSphere, kLegSpheres> leg_spheres(const Character& character) {
+  Array<LegSphere, kLegSpheres> spheres;
+  for (int k = 0; k < kFootPoints; ++k) {
+    const ContactPoint& point = character.contact_points[k];
+    spheres[k] = {point.body, point.p_B, point.radius};
+  }
+  int next = kFootPoints;
+  for (const int knee : {kLeftKnee, kRightKnee}) {
+    const Capsule& shin = character.capsule[knee];
+    for (int k = 0; k < kShinSpheres; ++k)
+      spheres[next++] = {knee, shin.a_B + k / (kShinSpheres - 1.0) * (shin.b_B - shin.a_B), shin.radius};
+  }
+  return spheres;
+}
+
+}  // namespace
+
 System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
                    double fps, const Scene& scene) {
   if (reference.size() < 2) raise(std::invalid_argument("a reference needs at least 2 frames"));
@@ -20,6 +39,8 @@ System make_system(const Character& character, const SimulationConfig& config, L
     const ContactPoint& point = character.contact_points[k];
     system.sole[k] = {point.body, sole_point(point)};
   }
+  system.legs = leg_spheres(character);
+  system.scene = scene;
   system.mass = character.total_mass();
   system.fps = fps;
   system.substeps = static_cast<int>(std::lround(substeps));

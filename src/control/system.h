@@ -38,17 +38,28 @@ struct SolePoint {
   Vector3d p_B;  ///< m
 };
 
+/// A sphere that stands for a part of a leg in the sides of boxes (box_sides.h).
+struct LegSphere {
+  int body;
+  Vector3d p_B;   ///< centre, m
+  double radius;  ///< m
+};
+inline constexpr int kShinSpheres = 4;                              ///< of a leg, from the knee to the ankle
+inline constexpr int kLegSpheres = kFootPoints + 2 * kShinSpheres;  ///< those of the shins last
+
 struct System {
   Model<float> model;
   Model<double> exact_model;           ///< the same for the analytic derivatives
   Array<SolePoint, kFootPoints> sole;  ///< left foot, then right (character.h)
-  double mass = 0;                     ///< of the whole character, kg
-  double fps = 30;                     ///< frames per second
-  int substeps = 8;                    ///< physics steps per frame
-  double max_residual = 2.5;           ///< residuals beyond are clamped, rad
-  bool velocity_feed_forward = true;   ///< PD damps towards the reference's joint velocity
-  bool assisted = false;               ///< has assistive forces
-  List<State<double>> reference;       ///< [frames]
+  Array<LegSphere, kLegSpheres> legs;
+  Scene scene;
+  double mass = 0;                    ///< of the whole character, kg
+  double fps = 30;                    ///< frames per second
+  int substeps = 8;                   ///< physics steps per frame
+  double max_residual = 2.5;          ///< residuals beyond are clamped, rad
+  bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity
+  bool assisted = false;              ///< has assistive forces
+  List<State<double>> reference;      ///< [frames]
 
   int frames() const { return static_cast<int>(reference.size()); }
   int controls() const { return assisted ? kMaxControls : kDofs; }

@@ -21,6 +21,7 @@ void write_policy(const std::filesystem::path& path, const motion::Clip& input, 
   }
   motion::Clip clip =
       motion::to_clip(stored.motion.name, stored.motion.fps, stored.motion.character, p_root, q);
+  clip.scene = stored.motion.scene;
   if (input.rest_joints) motion::put_on_body_of(input, clip);
   Npz npz = motion::to_npz(clip);
   add_states(kStatePrefix, stored.states, Precision::kFloat32, npz);
@@ -41,6 +42,7 @@ StoredPolicy policy_from(const Npz& npz) {
   body.name = clip.name;
   body.fps = clip.fps;
   body.character = motion::character_of(clip);
+  body.scene = clip.scene;
   stored.motion = rl::tracking::reference_of_states(body, stored.states);
   stored.agent = rl::load_agent(npz, kAgentPrefix);
   if (stored.agent.actor.inputs() != rl::tracking::kStateSize || stored.agent.actor.outputs() != kDofs)

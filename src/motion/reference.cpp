@@ -2,16 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-
 namespace mimicx::motion {
-
-void require_flat_floor(const Reference& reference, const std::string& what) {
-  if (!reference.scene.flat())
-    throw DataError(reference.name, "scene",
-                    "a flat floor, because " + what + " knows no other (plans do: mimicx plan)",
-                    std::to_string(reference.scene.plates.count()) + " plates");
-}
 
 void differentiate(PerFrame<ReferenceFrame>& frames, double fps) {
   const int last = frames.count() - 1;

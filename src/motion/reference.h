@@ -33,10 +33,6 @@ struct Reference {
   int size() const { return frames.count(); }
 };
 
-/// For what knows a flat floor only. @param what  it is, such as "training a policy"
-/// @throws DataError naming the motion, if its scene has plates
-void require_flat_floor(const Reference& reference, const std::string& what);
-
 /// Fills in the velocities of `frames` by central differences on the rotation group, one-sided at both ends;
 /// p_root and q must be set. A single frame keeps its velocities.
 void differentiate(PerFrame<ReferenceFrame>& frames, double fps);

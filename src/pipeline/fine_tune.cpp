@@ -41,7 +41,6 @@ std::vector<std::string> notes_of(const ChosenSet& chosen, int frames, int sets,
 run::SimulatedSequence fine_tune(const motion::Reference& reference, const options::OptionSets& sets,
                                  const options::ArrangementConfig& arrangement,
                                  const TrainingConfig& training, const run::SequenceJob& job) {
-  motion::require_flat_floor(reference, "training");
   const rl::tracking::TrackingConfig& tracking = training.tracking;
   const auto clip = rl::tracking::make_tracking_clip(reference, tracking);
   run::JobWatch watch{job};

@@ -15,7 +15,6 @@ run::Method imitation_of(const ImitateConfig& config) {
   method.simulation = config.training.tracking.simulation;
   method.simulate = [&training = config.training](const motion::Reference& reference,
                                                   const run::SequenceJob& job) {
-    motion::require_flat_floor(reference, "training");
     const auto clip = rl::tracking::make_tracking_clip(reference, training.tracking);
     run::SimulatedSequence made = train_sequence(clip, {untrained_agent(training)}, training, job);
     made.method = "imitate";

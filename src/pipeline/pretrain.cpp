@@ -39,7 +39,6 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
     std::string reason;
     try {
       run::PreparedMotion motion = run::prepare_motion(files[i], config.read, config.correction);
-      motion::require_flat_floor(motion.reference, "training");
       run::tell_decisions(files[i], motion.input, context.messages);
       // Names identify motions in the set; files of the same name in two folders get different names.
       const std::string name = record::unique_name(inputs[i].name, taken);

@@ -33,6 +33,7 @@ void visit_settings(MotionPlanConfig& config, const auto& visit) {
   visit("plan_angular_momentum", w.angular_momentum, 0, 1e9,
         "weight of the angular momentum about the centre of mass, per mass, s²/m⁴");
   visit("plan_slip", w.slip, 0, 1e9, "weight of the mean square slip of a sole, s²/m²");
+  visit("plan_box_sides", w.box_sides, 0, 1e9, "weight of the legs' depth in the sides of boxes, 1/m²");
   visit("plan_torque", w.torque, 0, 1e9, "weight of the joints' elastic torques per mass, s⁴/m⁴");
   visit("plan_feasible_need", config.feasible_need, 1e-6, 1e9,
         "external force of a frame, in body weights, at which its momentum counts a quarter");

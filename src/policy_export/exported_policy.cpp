@@ -67,6 +67,8 @@ int ExportedPolicy::widest() const {
 
 ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,
                              const std::optional<nn::AutoEncoder>& coder) {
+  if (!policy.motion.scene.flat())
+    throw std::invalid_argument("its motion is on a scene, and exported policies know the flat floor alone");
   ExportedPolicy out;
   out.meant = policy;
   out.in_8_bits = in_8_bits;

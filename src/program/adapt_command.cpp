@@ -62,10 +62,6 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   control::Plan found;
   run::SimulatedSequence plan = plan::plan_sequence(reference, planning_of(config), job, &found);
   if (plan.interrupted) return plan;
-  if (!reference.scene.flat()) {
-    plan.notes.push_back("no policy is taught or trained on a scene: the plan alone");
-    return plan;
-  }
   const judge::Candidate planned = judge::candidate_of(reference, plan.after);
   const run::SequenceJob rest = run::after_seconds(job, plan.planning_seconds);
   if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)

@@ -72,6 +72,7 @@ Support sole(int side) { return side == 0 ? Support{0, 1, 2, 3, 4, 5} : Support{
 Support toes(int side) { return side == 0 ? Support{2, 3, 4, 5} : Support{8, 9, 10, 11}; }
 Support knee(int side) { return points_on(kLeftKnee + side); }
 Support hand(int side) { return points_on(kLeftWrist + side); }
+Support elbow(int side) { return points_on(kLeftElbow + side); }
 Support front(int side) {
   Support points = points_on(kLeftHip + side);
   points.push_back(points_on(kSpine1).front());

@@ -32,6 +32,7 @@ Support sole(int side);
 Support toes(int side);  ///< with the ball of the foot
 Support knee(int side);
 Support hand(int side);
+Support elbow(int side);
 Support front(int side);  ///< hip and belly, for lying on the front
 Support thighs();
 Support seat();  ///< pelvis and thighs
@@ -58,6 +59,11 @@ inline Bearing home(Support points, double ahead) { return {std::move(points), {
 /// Of the trunk and the thighs, on a plate.
 inline Bearing rolling_on(Support points, double height) {
   return {std::move(points), Eigen::Vector2d::Zero(), 0.0, false, height, true};
+}
+
+/// Of hands and elbows, on a plate.
+inline Bearing resting_on(Support points, double height) {
+  return {std::move(points), Eigen::Vector2d::Zero(), 0.0, false, height};
 }
 
 /// A part of the weight, in any unit.

@@ -15,7 +15,6 @@ motion::Reference reference_in(const PlannedMotion& motion, const files::StoredP
   const motion::Clip clip = motion::read_clip(motion.run.reference(motion.name));
   body.character = motion::character_of(clip);
   body.scene = clip.scene;
-  motion::require_flat_floor(body, "teaching");
   return rl::tracking::reference_of_states(body, stored.reference);
 }
 

@@ -64,8 +64,9 @@ std::optional<Teacher> make_teacher(const motion::Reference& reference, const co
                                     const TeacherConfig& config, const rl::tracking::TrackingConfig& task,
                                     const control::PlanControl& control) {
   const motion::Reference planned = rl::tracking::reference_of_states(reference, plan.states);
-  const control::System system = control::make_system(planned.character, task.simulation,
-                                                      rl::tracking::simulator_states(planned), planned.fps);
+  const control::System system =
+      control::make_system(planned.character, task.simulation, rl::tracking::simulator_states(planned),
+                           planned.fps, planned.scene);
   const control::Cost cost = control::make_cost(system, config.weights);
   control::Trajectory start;
   start.x = {control::as_floats(system.at(0))};

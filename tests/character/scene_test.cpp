@@ -47,6 +47,43 @@ TEST(Scene, PlateReachesEightCentimetresDown) {
   EXPECT_NEAR(scene.clearance({0, 0, 0.43}), -0.07, 1e-15);
 }
 
+// By brute force: the least of the moves along the sides and up, in steps of 0.1 mm, after which the sphere,
+// taken for a cube along the sides, no longer overlaps the box.
+TEST(Scene, WayOutOfASideIsTheShortest) {
+  const Plate box = plate(0.4, -0.2, 0.9, 0.3, 0.15, 0.5);
+  const Vector3d first = rotation_z(0.9) * Vector3d::UnitX(), second = rotation_z(0.9) * Vector3d::UnitY();
+  const auto overlaps = [&](const Vector3d& p, double radius) {
+    const Vector3d from = rotation_z(-0.9) * (p - Vector3d(0.4, -0.2, 0.0));
+    return std::abs(from.x()) < 0.3 + radius && std::abs(from.y()) < 0.15 + radius &&
+           p.z() - radius < 0.5 - Scene::kReach;
+  };
+  const auto by_force = [&](const Vector3d& p, double radius) {
+    for (double way = 0.0;; way += 1e-4)
+      for (const Vector3d& to :
+           {first, Vector3d(-first), second, Vector3d(-second), Vector3d(Vector3d::UnitZ())})
+        if (!overlaps(p + way * to, radius)) return way;
+  };
+  Random random(6, {});
+  int in = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Vector3d p =
+        Vector3d(0.4, -0.2, 0.3) + 0.15 * Vector3d(random.normal(), random.normal(), random.normal());
+    const double radius = 0.02 * (k % 3);
+    const WayOut way = Scene{{box}}.way_out(p, radius);
+    EXPECT_NEAR(way.depth, by_force(p, radius), 1.1e-4);
+    EXPECT_FALSE(overlaps(p + (way.depth + 1e-9) * way.direction, radius));
+    in += way.depth > 0.0;
+  }
+  EXPECT_GT(in, 50);
+}
+
+TEST(Scene, OnlyStiffPlatesHaveSides) {
+  Scene scene{{plate(0, 0, 0, 1, 1, 0.5)}};
+  EXPECT_NEAR(scene.way_out({0.95, 0.0, 0.2}, 0.0).depth, 0.05, 1e-12);
+  scene.plates[0].stiffness = 2e4;
+  EXPECT_EQ(scene.way_out({0.95, 0.0, 0.2}, 0.0).depth, 0.0);
+}
+
 TEST(Scene, PointThatACushionGivesWayToIsOnIt) {
   Scene scene{{plate(0, 0, 0, 1, 1, 0.5)}};
   EXPECT_NEAR(scene.clearance({0, 0, 0.499}), -0.001, 1e-12);

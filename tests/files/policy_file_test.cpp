@@ -56,6 +56,13 @@ TEST_F(PolicyFile, RoundTripGivesTheSameActions) {
   EXPECT_EQ(end_of(read), end_of(stored));
 }
 
+TEST_F(PolicyFile, KnowsTheSceneItActsOn) {
+  EXPECT_TRUE(read_policy(file).motion.scene.flat());
+  stored.motion.scene.plates.push_back({{0.0, 0.0}, 0.3, {1.0, 1.0}, 0.2});
+  write_policy(file, clip, stored);
+  EXPECT_EQ(read_policy(file).motion.scene, stored.motion.scene);
+}
+
 TEST_F(PolicyFile, IsAlsoAMotionFile) {
   const motion::Clip read = motion::read_clip(file);
   EXPECT_EQ(read.frames(), 20);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
 
@@ -62,21 +61,6 @@ TEST(Differentiate, IntegratesBackToTheMotion) {
     for (const std::size_t j : std::initializer_list<std::size_t>{kPelvis, kSpine1, kNeck, kLeftCollar})
       EXPECT_LT((f.q[j] * exp_map(0.5 / 30.0 * (f.omega[j] + next.omega[j]))).angularDistance(next.q[j]),
                 0.02);
-  }
-}
-
-TEST(Reference, FlatFloorIsRequiredByName) {
-  Reference reference;
-  reference.name = "stairs";
-  EXPECT_NO_THROW(require_flat_floor(reference, "training"));
-  reference.scene.plates = {{{0.0, 0.0}, 0.0, {1.0, 1.0}, 0.2}};
-  try {
-    require_flat_floor(reference, "training");
-    FAIL();
-  } catch (const DataError& error) {
-    EXPECT_NE(std::string(error.what()).find("stairs: scene: expected a flat floor, because training"),
-              std::string::npos)
-        << error.what();
   }
 }
 

@@ -74,6 +74,12 @@ Largest differences(const ExportedPolicy& exported) {
   return largest;
 }
 
+TEST(PolicyRuntime, PoliciesOnScenesAreRefused) {
+  files::StoredPolicy on_a_step = small_policy();
+  on_a_step.motion.scene.plates.push_back({{0.0, 0.0}, 0.0, {1.0, 1.0}, 0.2});
+  EXPECT_THROW(export_policy(on_a_step, false), std::invalid_argument);
+}
+
 TEST(PolicyRuntime, MatchesTheProgram) {
   for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits()}) {
     const Largest largest = differences(*exported);

@@ -34,6 +34,25 @@ TEST(Teacher, ControlsOnThePlannedStatesRepeatTheMotion) {
         << i;
 }
 
+TEST(Teacher, RepeatsAMotionOnAPlate) {
+  motion::Reference high = short_squat();
+  high.scene.plates.push_back({{0.0, 0.0}, 0.4, {20.0, 20.0}, 0.25});
+  for (motion::ReferenceFrame& frame : high.frames) frame.p_root.z() += 0.25;
+  for (BodyPoses& pose : high.poses)
+    for (Vector3d& p : pose.p_WB) p.z() += 0.25;
+  const control::System system =
+      control::make_system(high.character, {}, rl::tracking::simulator_states(high), high.fps, high.scene);
+  const control::Plan plan = control::make_plan(system, {}, {.threads = 2});
+  ASSERT_EQ(plan.ending, control::Ending::kFollowed);
+  const std::optional<Teacher> teacher = make_teacher(high, plan, {}, {}, {.threads = 2});
+  ASSERT_TRUE(teacher);
+  int t = 0;
+  const auto rollout = rl::tracking::roll_out(teacher->clip, {}, [&](int, const float*, float* action) {
+    std::copy_n(teacher->motion.u[t++].begin(), kDofs, action);
+  });
+  EXPECT_LT(farthest(teacher->clip->reference.poses, rollout.poses), 0.003);
+}
+
 TEST(Teacher, TeachesThePlannedMotionNotTheReference) {
   const Teacher& teacher = teacher_of_squat();
   for (int t = 0; t < 45; ++t)

@@ -16,7 +16,9 @@ namespace {
 constexpr double kSigmaHeight = 0.001;  ///< m, of a standing point
 constexpr double kSigmaSlip = 0.0006;   ///< m per frame, of a standing point
 constexpr double kSigmaDepth = 0.0005;  ///< m, of a point below the floor
-constexpr double kResting = 0.01;  ///< m: a knee or thigh that came below the floor is held on it up to here
+constexpr double kSigmaSide = 0.002;    ///< m, of a point in the side of a box
+constexpr double kResting =
+    0.01;  ///< m: up to here from the floor or a side, what came into it is held on it
 constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
@@ -220,11 +222,17 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
   return out;
 }
 
+/// Points that came into the ground in a step before. They are held on its surface, else every second step
+/// would push them in again.
+struct Held {
+  PerFrame<List<bool>> down;                 ///< [frames][other_leg_points] below it
+  PerFrame<Array<bool, kFootPoints>> aside;  ///< [frames] in the side of a box
+};
+
 /// @param others  other_leg_points
-/// @param held  [frames][others] those that came below the ground in a step before
 Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference,
                         const PerFrame<Array<double, kFootPoints>>& clearance, const PerFrame<Correction>& c,
-                        const List<ContactPoint>& others, PerFrame<List<bool>>& held) {
+                        const List<ContactPoint>& others, Held& held) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
   const Correction size = sizes(kSigmaPlace, kSigmaLegTurn);
@@ -250,6 +258,10 @@ Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& referen
       const double z = reference.scene.clearance(p);
       if (stands || z < 0.0) equations.add(t, now.sole_J[k].row(2), z, stands ? kSigmaHeight : kSigmaDepth);
       if (z < clearance[t][k]) equations.add(t, now.sole_J[k].row(2), z - clearance[t][k], kSigmaClearance);
+      const WayOut way = reference.scene.way_out(p, kResting);
+      held.aside[t][k] = way.depth > kResting || (held.aside[t][k] && way.depth > 0.0);
+      if (held.aside[t][k])
+        equations.add(t, -way.direction.transpose() * now.sole_J[k], way.depth - kResting, kSigmaSide);
       if (t == 0 || !stands || !stance[t - 1][k]) continue;
       for (int axis = 0; axis < 2; ++axis)
         equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
@@ -258,21 +270,22 @@ Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& referen
     for (int k = 0; k < others.count(); ++k) {
       const Vector3d p = lowest_position(others[k], now.poses);
       const double z = reference.scene.clearance(p);
-      held[t][k] =
-          z < 0.0 || (held[t][k] && z < kResting);  // else every second step would push it down again
-      if (held[t][k]) equations.add(t, leg_jacobian(now.poses, others[k].body, p).row(2), z, kSigmaDepth);
+      held.down[t][k] = z < 0.0 || (held.down[t][k] && z < kResting);
+      if (held.down[t][k])
+        equations.add(t, leg_jacobian(now.poses, others[k].body, p).row(2), z, kSigmaDepth);
     }
     before = now;
   }
   return equations.solve();
 }
 
-/// Whether every standing point is on the floor and stays where it is.
+/// Whether every standing point is on the floor and stays where it is, and no point is in the side of a box.
 bool is_planted(const PerFrame<Stance>& stance, const Reference& reference) {
   SolePositions before;
   for (int t = 0; t < reference.size(); ++t) {
     const SolePositions p = sole_positions(reference.character, reference.poses[t]);
     for (int k = 0; k < kFootPoints; ++k) {
+      if (reference.scene.way_out(p[k], 0.0).depth > 0.0) return false;
       if (!stance[t][k]) continue;
       if (std::abs(reference.scene.clearance(p[k])) > kPlantedHeight) return false;
       if (t > 0 && stance[t - 1][k] && (p[k] - before[k]).head<2>().norm() > kPlantedSlip) return false;
@@ -290,7 +303,8 @@ double plant_feet(const PerFrame<Stance>& stance, Reference& reference) {
   const auto clearance = clearances(stance, reference);
   PerFrame<Correction> c(frames, Correction::Zero());
   const List<ContactPoint> others = other_leg_points(reference.character);
-  PerFrame<List<bool>> held(frames, List<bool>(others.size(), false));
+  Held held{PerFrame<List<bool>>(frames, List<bool>(others.size(), false)),
+            PerFrame<Array<bool, kFootPoints>>(frames)};
   for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
     const Eigen::VectorXd step = step_of(stance, reference, clearance, c, others, held);
     const double largest = step.cwiseAbs().maxCoeff();

@@ -3,8 +3,8 @@
 /// References hover over the floor by millimetres to centimetres and slide on it. A simulated body that
 /// follows them gets no support where it needs it, touches down late, and slides itself. So the legs and the
 /// place of the pelvis are corrected, over the whole motion at once, until every standing point of the soles
-/// (stance.h) is on the floor and stays there, no point of the legs is below it, no joint of the legs is
-/// beyond its range, and the corrections are small and smooth.
+/// (stance.h) is on the floor and stays there, no point of the legs is below it, no point of the soles is in
+/// the side of a box, no joint of the legs is beyond its range, and the corrections are small and smooth.
 ///
 /// What it does not do: it does not decide who stands (stance.h), and does not change the trunk's rotation,
 /// arms and head.

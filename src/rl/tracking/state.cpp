@@ -50,9 +50,9 @@ std::array<float, kJointFeatures> joint_features(const motion::ReferenceFrame& f
 }
 
 void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& joints,
-                   const Eigen::Vector2d& heading, float* out) {
+                   const Eigen::Vector2d& heading, double ground, float* out) {
   const motion::ReferenceFrame& f = pose.frame;
-  *out++ = static_cast<float>(f.p_root.z());
+  *out++ = static_cast<float>(f.p_root.z() - ground);
   const Vector6d root = rotation_6d(f.q[0]);
   out = put(root.head<3>(), heading, out);
   out = put(root.tail<3>(), heading, out);
@@ -63,7 +63,7 @@ void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& jo
 }
 
 void own_pose_features(const Pose& pose, float* out) {
-  pose_features(pose, joint_features(pose.frame), heading_direction(pose.frame.q[0]), out);
+  pose_features(pose, joint_features(pose.frame), heading_direction(pose.frame.q[0]), pose.ground, out);
 }
 
 void turn_features(const float* in, const Eigen::Vector2d& from, const Eigen::Vector2d& to, float* out) {
@@ -90,7 +90,7 @@ void encoded_state(std::span<const float> code, const std::array<float, kPoseFea
   float* difference = of_simulated + kPoseFeatures;
   float* offset = difference + kPoseFeatures;
   for (std::size_t k = 0; k < kBetas; ++k) shape[k] = static_cast<float>(betas[k]);
-  pose_features(simulated, joint_features(simulated.frame), heading, of_simulated);
+  pose_features(simulated, joint_features(simulated.frame), heading, reference.ground, of_simulated);
   turn_features(decoded.data(), heading_direction(reference.frame.q[0]), heading, difference);
   for (int k = 0; k < kPoseFeatures; ++k) difference[k] -= of_simulated[k];
   put_root_offset(reference, simulated, heading, offset);
@@ -104,9 +104,9 @@ void tracking_state(const Pose& reference, const std::array<float, kJointFeature
   float* of_simulated = shape + kBetas;
   float* difference = of_simulated + kPoseFeatures;
   float* offset = difference + kPoseFeatures;
-  pose_features(reference, reference_joints, heading, of_reference);
+  pose_features(reference, reference_joints, heading, reference.ground, of_reference);
   for (std::size_t k = 0; k < kBetas; ++k) shape[k] = static_cast<float>(betas[k]);
-  pose_features(simulated, joint_features(simulated.frame), heading, of_simulated);
+  pose_features(simulated, joint_features(simulated.frame), heading, reference.ground, of_simulated);
   for (int k = 0; k < kPoseFeatures; ++k) difference[k] = of_reference[k] - of_simulated[k];
   put_root_offset(reference, simulated, heading, offset);
 }

@@ -4,8 +4,9 @@
 ///     P   = { r^h 1, r^a 6, ṙ^p 3, ṙ^a 3, x^a 17·6 + 4·1, ẋ^a 17·3 + 4·1, e^p 4·3 }
 ///
 /// Both poses are expressed in the *simulated* character's heading frame (its yaw and place are removed), so
-/// that the state does not depend on its heading and place in the world. The root offset is horizontal: the
-/// height is already in P. Angular velocities of joints are in the child's frame.
+/// that the state does not depend on its heading and place in the world. Heights count from the ground under
+/// the reference's pelvis, so that stairs look like a floor. The root offset is horizontal: the height is
+/// already in P. Angular velocities of joints are in the child's frame.
 ///
 /// The state of an option with an encoder is (docs/method.md §7)
 ///
@@ -31,6 +32,7 @@ static_assert(kStateSize == 570);
 struct Pose {
   motion::ReferenceFrame frame;
   PerBody<Vector3d> p_WB;  ///< m
+  double ground = 0.0;     ///< of a reference: height of the ground under its pelvis, m
 };
 
 /// Horizontal unit vector (cos, sin) of `heading_angle`, without computing the angle.
@@ -43,9 +45,9 @@ std::array<float, kJointFeatures> joint_features(const motion::ReferenceFrame& f
 inline constexpr int kEncodedRest = kStateSize - kPoseFeatures;
 
 /// P in the frame of heading (cos, sin). @param joints  the joint features, which are copied into it
-/// @param out  [186]
+/// @param ground  from where its height counts, m  @param out  [186]
 void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& joints,
-                   const Eigen::Vector2d& heading, float* out);
+                   const Eigen::Vector2d& heading, double ground, float* out);
 
 /// P in the pose's own heading frame. @param out  [186]
 void own_pose_features(const Pose& pose, float* out);

@@ -22,7 +22,8 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& 
   clip->reference = reference;
   clip->model = physics::make_model<float>(reference.character, config.simulation, reference.scene);
   for (std::size_t t = 0; t < reference.frames.size(); ++t)
-    clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
+    clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB,
+                           reference.scene.height_under(reference.frames[t].p_root)});
   Pose rest = clip->poses.back();
   rest.frame.v_root.setZero();
   for (auto& omega : rest.frame.omega) omega.setZero();

@@ -1,4 +1,5 @@
 // Onto a seat or a bed and up again.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,13 +15,13 @@ LegPosture bent(double flexion, double knee, double pointing = 0.0) {
 }
 
 /// A plate behind the feet, as high as the thighs of a person who sits with level thighs.
-/// @param deep  m from front to back  @param share  of that height
-Scene seat_behind(const PlanRequest& request, double deep, double share) {
+/// @param deep  m from front to back  @param wide  m from side to side  @param share  of that height
+Scene seat_behind(const PlanRequest& request, double deep, double wide, double share) {
   const Character& c = request.character;
   const double sole = -sole_point(c.contact_points[0]).y();  // below the ankle
   const double thigh = c.joint_offset[kLeftKnee].norm(), front = -0.18 * thigh;
   Plate plate;
-  plate.half_extents = {0.5 * deep, 0.30};
+  plate.half_extents = {0.5 * deep, 0.5 * wide};
   plate.centre = {front - 0.5 * deep, 0.0};
   plate.height = share * (c.joint_offset[kLeftAnkle].norm() + sole - c.capsule[kLeftHip].radius);
   Scene scene;
@@ -54,12 +55,16 @@ class Sitter {
     s_.pause(0.4);
   }
   void gesture(const PlanFrame& upper, double seconds) { go(sitting(upper), seated(), on_seat(), seconds); }
+  /// Over the hands behind the hips and then the forearms onto the back, and up again the same way.
   void lie(double rest) {
-    go(reclined(-40.0), seated(), {{seat(), 0.95}, {sole(0), 0.025}, {sole(1), 0.025}}, 1.4);
-    go(reclined(-86.0), {rolling_on(thighs(), height_), rolling_on(back(), height_)},
-       {{seat(), 0.5}, {back(), 0.45}, {sole(0), 0.025}, {sole(1), 0.025}}, 1.4);
+    lean_back(-20.0, 0.15, 1.0);
+    lean_back(-38.0, 0.3, 1.0);
+    lean_back(-55.0, 0.4, 1.2);
+    lean_back(-86.0, 0.45, 1.2);
     s_.pause(rest);
-    go(reclined(-40.0), seated(), {{seat(), 0.95}, {sole(0), 0.025}, {sole(1), 0.025}}, 1.4);
+    lean_back(-55.0, 0.4, 1.2);
+    lean_back(-38.0, 0.3, 1.2);
+    lean_back(-20.0, 0.15, 1.0);
   }
   const PlanFrame& upright() const { return upright_; }
 
@@ -70,9 +75,27 @@ class Sitter {
     key.weight_on = std::move(weight_on);
     s_.go(key, tempo_ * seconds);
   }
+  /// The trunk leans back, degrees. What is on the bed behind the hips, hands, elbows or the back, bears a
+  /// share of the weight.
+  void lean_back(double tilt, double share, double seconds) {
+    const bool on_back = tilt < -80.0, on_elbows = !on_back && tilt < -50.0;
+    KeyPose key = reclined(tilt);
+    std::vector<Bearing> bearings =
+        on_back ? std::vector{rolling_on(thighs(), height_), rolling_on(back(), height_)} : seated();
+    std::vector<Load> loads = {{seat(), 0.95 - share}, {sole(0), 0.025}, {sole(1), 0.025}};
+    if (on_back) loads.push_back({back(), share});
+    for (const int side : {0, 1}) {
+      key.upper.arm[side] = {(-55.0 - 0.5 * tilt) * kDegree, 14.0 * kDegree, 0.0,
+                             std::min(-1.5 * tilt - 15.0, 90.0) * kDegree};
+      bearings.push_back(on_back ? rolling_on(hand(side), height_) : resting_on(hand(side), height_));
+      if (tilt < -50.0) bearings.push_back(rolling_on(elbow(side), height_));
+      if (!on_back) loads.push_back({on_elbows ? elbow(side) : hand(side), 0.5 * share});
+    }
+    go(key, bearings, loads, seconds);
+  }
   std::vector<Bearing> seated() const { return {rolling_on(seat(), height_)}; }
   static std::vector<Load> soles() { return {{sole(0)}, {sole(1)}}; }
-  static std::vector<Load> to_feet() { return {{seat(), 0.5}, {sole(0), 0.25}, {sole(1), 0.25}}; }
+  static std::vector<Load> to_feet() { return {{seat(), 0.66}, {sole(0), 0.17}, {sole(1), 0.17}}; }
   static std::vector<Load> on_seat() { return {{seat(), 0.85}, {sole(0), 0.075}, {sole(1), 0.075}}; }
   /// Hips back, trunk and arms ahead.
   KeyPose bowed(double flexion, double knee) const {
@@ -93,7 +116,8 @@ class Sitter {
   KeyPose leaning() const {
     KeyPose key = bowed(86.0 + 0.5 * lean_, 92.0);
     key.upper.pelvis.x() = 0.5 * lean_ * kDegree;
-    key.upper.trunk.x() = lean_ * kDegree;
+    key.upper.trunk.x() = 0.4 * lean_ * kDegree;
+    for (ArmPosture& arm : key.upper.arm) arm.forward = 75.0 * kDegree;  // not down beside the plate
     for (LegPosture& l : key.leg) l.pointing = 0.0;
     return key;
   }
@@ -101,7 +125,6 @@ class Sitter {
     KeyPose key = sitting(upright_);
     key.upper.pelvis.x() = tilt * kDegree;
     key.upper.head.x() = 12.0 * kDegree;
-    for (ArmPosture& arm : key.upper.arm) arm = {8.0 * kDegree, 22.0 * kDegree, 0.0, 20.0 * kDegree};
     for (LegPosture& l : key.leg) l = bent(86.0 + tilt, 86.0);
     return key;
   }
@@ -113,9 +136,9 @@ class Sitter {
 
 /// Sits down, calls `busy(sitter)`, and stands up.
 template <class Busy>
-SceneMotion on_seat(const PlanRequest& request, double deep, const Busy& busy) {
+SceneMotion on_seat(const PlanRequest& request, double deep, double wide, const Busy& busy) {
   const double share = request.random.uniform(0.92, 1.04);
-  SceneMotion motion{{}, seat_behind(request, deep, share)};
+  SceneMotion motion{{}, seat_behind(request, deep, wide, share)};
   Sketch s(request, random_stance(request, 1.0, 1.3, 3.0, 9.0), motion.scene);
   Sitter sitter(s, motion.scene.plates.front().height);
   sitter.down();
@@ -128,12 +151,12 @@ SceneMotion on_seat(const PlanRequest& request, double deep, const Busy& busy) {
 }  // namespace
 
 SceneMotion sit_down(const PlanRequest& request) {
-  return on_seat(request, 0.55,
+  return on_seat(request, 0.55, 0.6,
                  [&](Sitter& sitter) { sitter.gesture(sitter.upright(), request.random.uniform(0.5, 1.2)); });
 }
 
 SceneMotion sit_and_reach(const PlanRequest& request) {
-  return on_seat(request, 0.55, [&](Sitter& sitter) {
+  return on_seat(request, 0.55, 0.6, [&](Sitter& sitter) {
     for (int gestures = 0; gestures < 3; ++gestures) {
       PlanFrame posture = random_posture(request.random, sitter.upright(), 0.6);
       posture.pelvis.x() += request.random.uniform(0.0, 10.0) * kDegree;
@@ -143,7 +166,7 @@ SceneMotion sit_and_reach(const PlanRequest& request) {
 }
 
 SceneMotion lie_on_bed(const PlanRequest& request) {
-  return on_seat(request, 2.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(0.8, 1.6)); });
+  return on_seat(request, 2.0, 1.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(0.8, 1.6)); });
 }
 
 }  // namespace mimicx::synth

@@ -66,6 +66,35 @@ TEST(FootPlanting, PlantedMotionStaysUnchanged) {
   }
 }
 
+// Somebody stands with the toes 3 cm in the side of a step.
+TEST(FootPlanting, MovesStandingFeetOutOfTheSideOfAStep) {
+  Reference reference = exact("stand");
+  const PerFrame<Stance> stance = stance_of(reference);
+  const Vector3d ahead = (reference.poses[0].q_WB[kPelvis] * Vector3d::UnitZ()).normalized();
+  double front = -1.0;
+  for (const Vector3d& p : sole_positions(reference.character, reference.poses[0]))
+    front = std::max(front, p.dot(ahead));
+  const Vector3d middle = reference.poses[0].p_WB[kPelvis];
+  const double from_middle = front - middle.dot(ahead) - 0.03;
+  reference.scene.plates.push_back({.centre = middle.head<2>() + (0.3 + from_middle) * ahead.head<2>(),
+                                    .yaw = std::atan2(ahead.y(), ahead.x()),
+                                    .half_extents = {0.3, 1.0},
+                                    .height = 0.17});
+  const auto deepest = [&] {
+    double most = 0.0;
+    for (const BodyPoses& pose : reference.poses)
+      for (const Vector3d& p : sole_positions(reference.character, pose))
+        most = std::max(most, reference.scene.way_out(p, 0.0).depth);
+    return most;
+  };
+  EXPECT_GT(deepest(), 0.025);
+  plant_feet(stance, reference);
+  EXPECT_LT(deepest(), 0.003);
+  const Faults faults = faults_of(stance, reference);
+  EXPECT_LT(faults.height, 0.003);
+  EXPECT_LT(faults.slip, 0.001);
+}
+
 // The whole body hovers 15 mm over the floor and drifts sideways by 60 mm/s.
 TEST(FootPlanting, PutsHoveringAndSlidingFeetOnOnePlace) {
   for (const char* kind : {"walk", "squat"}) {

@@ -16,6 +16,27 @@ std::array<float, kStateSize> state_of(const Pose& reference, const Pose& simula
   return state;
 }
 
+// Everything on a step, ground included: the same state as on the floor.
+TEST(TrackingState, CountsHeightsFromTheGroundUnderTheReference) {
+  const Character character = make_character();
+  Random random(4);
+  const Pose reference = pose_of(character, random_frame(random, 0.5)),
+             simulated = pose_of(character, random_frame(random, 0.5));
+  const auto raised = [](Pose pose) {
+    pose.frame.p_root.z() += 0.25;
+    for (Vector3d& p : pose.p_WB) p.z() += 0.25;
+    return pose;
+  };
+  Pose high = raised(reference);
+  high.ground = 0.25;
+  const auto low_state = state_of(reference, simulated), high_state = state_of(high, raised(simulated));
+  for (int k = 0; k < kStateSize; ++k) EXPECT_NEAR(low_state[k], high_state[k], 1e-6f) << k;
+  std::array<float, kPoseFeatures> low_own{}, high_own{};
+  own_pose_features(reference, low_own.data());
+  own_pose_features(high, high_own.data());
+  for (int k = 0; k < kPoseFeatures; ++k) EXPECT_NEAR(low_own[k], high_own[k], 1e-6f) << k;
+}
+
 TEST(TrackingState, HasExactly570NumbersAndWritesThemAll) {
   const Character character = make_character();
   Random random(3);
@@ -124,8 +145,8 @@ TEST(EncodedState, TurnedFeaturesEqualFeaturesInTheOtherHeading) {
     const double a = random.uniform(-3, 3), b = random.uniform(-3, 3);
     const Eigen::Vector2d from(std::cos(a), std::sin(a)), to(std::cos(b), std::sin(b));
     std::array<float, kPoseFeatures> seen_from{}, seen_to{}, turned{};
-    pose_features(pose, joint_features(pose.frame), from, seen_from.data());
-    pose_features(pose, joint_features(pose.frame), to, seen_to.data());
+    pose_features(pose, joint_features(pose.frame), from, 0.0, seen_from.data());
+    pose_features(pose, joint_features(pose.frame), to, 0.0, seen_to.data());
     turn_features(seen_from.data(), from, to, turned.data());
     for (std::size_t k = 0; k < kPoseFeatures; ++k) EXPECT_NEAR(turned[k], seen_to[k], 2e-5) << k;
   }

@@ -25,5 +25,33 @@ TEST(TrackingRollout, FollowsAStandingReferenceAndReportsItsForces) {
   EXPECT_NEAR(vertical, weight, 0.25 * weight);
 }
 
+// The policy's state counts heights from the ground: everything on a plate of 0.25 m, and it acts as on the
+// floor.
+TEST(TrackingRollout, PolicyActsOnAPlateAsOnTheFloor) {
+  const motion::Reference low = swaying_reference(16);
+  motion::Reference high = low;
+  high.scene.plates.push_back({{0.1, 0.2}, 0.4, {20.0, 20.0}, 0.25});
+  for (motion::ReferenceFrame& frame : high.frames) frame.p_root.z() += 0.25;
+  for (BodyPoses& pose : high.poses)
+    for (Vector3d& p : pose.p_WB) p.z() += 0.25;
+  AgentShape shape;
+  shape.observation_dim = kStateSize;
+  shape.action_dim = kDofs;
+  shape.hidden = {32};
+  shape.last_scale = 0.3F;
+  const auto act = mean_action({make_agent(shape, 5)});
+  const TrackingRollout floor = roll_out(make_tracking_clip(low, {}), {}, act),
+                        plate = roll_out(make_tracking_clip(high, {}), {}, act);
+  ASSERT_EQ(plate.poses.size(), floor.poses.size());
+  double moved = 0.0;
+  for (std::size_t t = 0; t < floor.poses.size(); ++t)
+    for (int body = 0; body < kBodies; ++body) {
+      const Vector3d on_floor = floor.poses[t].p_WB[body], on_plate = plate.poses[t].p_WB[body];
+      EXPECT_LT((on_plate - on_floor - Vector3d(0.0, 0.0, 0.25)).norm(), 2e-4) << t << ' ' << body;
+      moved = std::max(moved, (on_floor - low.poses[t].p_WB[body]).norm());
+    }
+  EXPECT_GT(moved, 0.01);
+}
+
 }  // namespace
 }  // namespace mimicx::rl::tracking

@@ -1,0 +1,65 @@
+#include "control/box_sides.h"
+
+#include <algorithm>
+
+#include "physics/lanes.h"
+
+namespace mimicx::control {
+namespace {
+
+bool is_solid(const ModelPlate<float>& plate) { return plate.stiffness >= static_cast<float>(Scene::kSolid); }
+
+/// Negative outside.
+P way_out(const ModelPlate<float>& plate, const Vec3<P>& p, float radius) {
+  const P x = p.x - P(plate.x), y = p.y - P(plate.y), cosine(plate.cosine), sine(plate.sine);
+  const P along = cosine * x + sine * y, across = cosine * y - sine * x;
+  const P first = P(plate.half_x + radius) - max(along, -along),
+          second = P(plate.half_y + radius) - max(across, -across),
+          up = P(plate.height - static_cast<float>(Scene::kReach) + radius) - p.z;
+  return min(min(first, second), up);
+}
+
+}  // namespace
+
+bool has_sides(const System& system) {
+  return std::any_of(system.model.plates.begin(), system.model.plates.end(), is_solid);
+}
+
+Array<P, kLegSpheres> depths_in_sides(const System& system, const Data<P>& d) {
+  Array<P, kLegSpheres> depths;
+  for (int k = 0; k < kLegSpheres; ++k) {
+    const LegSphere& sphere = system.legs[k];
+    const Vec3<P> p_B{P(sphere.p_B.x()), P(sphere.p_B.y()), P(sphere.p_B.z())};
+    const Vec3<P> p = d.p_WB[sphere.body] + d.R_WB[sphere.body] * p_B;
+    depths[k] = P(0.0);
+    for (const ModelPlate<float>& plate : system.model.plates)
+      if (is_solid(plate)) depths[k] = max(depths[k], way_out(plate, p, static_cast<float>(sphere.radius)));
+  }
+  return depths;
+}
+
+SideDepths side_depths(const System& system, const Data<double>& d) {
+  SideDepths out;
+  out.by_tangent.setZero();
+  for (int k = 0; k < kLegSpheres; ++k) {
+    const LegSphere& sphere = system.legs[k];
+    const Vector3d p =
+        to_eigen(d.p_WB[sphere.body]) + to_eigen(d.q_WB[sphere.body]).toRotationMatrix() * sphere.p_B;
+    const WayOut way = system.scene.way_out(p, sphere.radius);
+    out.depth[k] = way.depth;
+    auto row = out.by_tangent.row(k);
+    row.head<3>() = -way.direction;
+    for (int body = sphere.body; body >= 0; body = kParents[body]) {
+      const Matrix3d R = to_eigen(d.q_WB[body]).toRotationMatrix();
+      const Vector3d arm = p - to_eigen(d.p_WB[body]);
+      const int first = body == 0 ? kRootRotation : kJointRotation + first_dof(body);
+      for (int n = 0; n < (is_hinge(body) ? 1 : 3); ++n) {
+        const Vector3d axis = is_hinge(body) ? Vector3d(R * hinge_axis(body)) : Vector3d(R.col(n));
+        row[first + n] = -way.direction.dot(axis.cross(arm));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace mimicx::control
