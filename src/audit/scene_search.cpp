@@ -26,11 +26,12 @@ constexpr double kMissing = 0.15;      // W
 constexpr double kOnOneFoot = 0.7;     // share of a step's frames in which less may be missing
 constexpr double kSeatMissing = 0.06, kSeatExplained = 0.03;  // W
 constexpr double kExplained = 0.10;                           // W
-constexpr double kMargin = 0.06;                              // of a plate beyond the points that use it, m
-constexpr double kLevelThigh = 0.55;                          // largest sine of its slope
-constexpr double kLowestSeat = 0.20;                          // m
-constexpr double kWindow = 0.2;                               // of the needs, s
-constexpr double kCushion = 2e4, kCushionDamping = 1e3;       // of a seat, N/m, N·s/m
+constexpr double kMargin = 0.06,
+                 kStepAside = 0.15;   // of a plate beyond the points that use it; of a step to the sides, m
+constexpr double kLevelThigh = 0.55;  // largest sine of its slope
+constexpr double kLowestSeat = 0.20;  // m
+constexpr double kWindow = 0.2;       // of the needs, s
+constexpr double kCushion = 2e4, kCushionDamping = 1e3;  // of a seat, N/m, N·s/m
 
 /// Points that push together while a foot stands or hips rest.
 struct Stance {
@@ -70,6 +71,13 @@ class SupportedMotion {
     double z = HUGE_VAL;
     for (const int i : points) z = std::min(z, place_[t][i].z());
     return z;
+  }
+
+  /// Median height of the points of a sole, m: the ball's, whatever the foot's pitch or a raised heel.
+  double sole_height(int t, const std::vector<int>& points) const {
+    std::vector<double> z;
+    for (const int i : points) z.push_back(place_[t][i].z());
+    return median(z);
   }
 
   /// Mean vertical speed of the lowest of the points around frame t, m/s.
@@ -137,7 +145,7 @@ std::vector<Stance> stances(const SupportedMotion& e) {
           std::count_if(points.begin(), points.end(), [&](int i) { return e.speed(t, i) < kSlow; }) >= 2;
     for_each_run(stands, e.fps(), kStands, [&](int first, int last) {
       std::vector<double> heights;
-      for (int t = first; t <= last; ++t) heights.push_back(e.lowest_of(t, points));
+      for (int t = first; t <= last; ++t) heights.push_back(e.sole_height(t, points));
       found.push_back({first, last, points, median(heights)});
     });
   }
@@ -196,8 +204,10 @@ std::vector<int> frames_of(const Group& group, int frames) {
   return list;
 }
 
-/// The rectangle under the points of the stances, its first side along `ahead`.
-Plate plate_under(const SupportedMotion& e, const Group& group, const Eigen::Vector2d& ahead, double height) {
+/// The rectangle under the points of the stances, its first side along `ahead`. @param aside  margin to the
+/// sides, m
+Plate plate_under(const SupportedMotion& e, const Group& group, const Eigen::Vector2d& ahead, double height,
+                  double aside) {
   const Eigen::Vector2d along = ahead.normalized(), across(-along.y(), along.x());
   Eigen::Vector2d low(HUGE_VAL, HUGE_VAL), high = -low;
   for (const Stance& stance : group)
@@ -211,9 +221,30 @@ Plate plate_under(const SupportedMotion& e, const Group& group, const Eigen::Vec
   Plate plate;
   plate.centre = middle.x() * along + middle.y() * across;
   plate.yaw = atan2(along.y(), along.x());
-  plate.half_extents = 0.5 * (high - low) + Eigen::Vector2d::Constant(kMargin);
+  plate.half_extents = 0.5 * (high - low) + Eigen::Vector2d(kMargin, aside);
   plate.height = height;
   return plate;
+}
+
+/// Takes away from a plate what is on the other side of a point of it, on the side where that is least.
+void cut_at(const Eigen::Vector2d& point, Plate& plate) {
+  const Eigen::Rotation2Dd turn(plate.yaw);
+  const Eigen::Vector2d from = turn.inverse() * (point - plate.centre);
+  const Eigen::Vector2d behind = plate.half_extents - from.cwiseAbs();
+  const int axis = behind.x() < behind.y() ? 0 : 1;
+  const double cut = 0.5 * behind[axis];
+  plate.half_extents[axis] -= cut;
+  plate.centre -= turn * (std::copysign(cut, from[axis]) * Eigen::Vector2d::Unit(axis));
+}
+
+/// Where a foot stands lower, the margin of a step is too wide.
+void cut_where_feet_stand_lower(const SupportedMotion& e, const std::vector<Stance>& all, double floor,
+                                Plate& plate) {
+  for (const Stance& stance : all)
+    if (stance.height < floor + plate.height - kSameHeight)
+      for (int t = stance.first; t <= stance.last; ++t)
+        for (const int i : stance.points)
+          if (plate.spans(e.place(t, i))) cut_at(e.place(t, i).head<2>(), plate);
 }
 
 /// Direction in which the feet of the stances point.
@@ -250,7 +281,9 @@ void find_steps(const SupportedMotion& e, FoundScene& found, std::vector<Group>&
     }
     if (without.empty() || quantile(without, kOnOneFoot) < kMissing || median(with) > kExplained) continue;
     const double height = group_height(group) - found.floor;
-    found.scene.plates.push_back(plate_under(e, group, toes_of(e, group), height));
+    Plate plate = plate_under(e, group, toes_of(e, group), height, kStepAside);
+    cut_where_feet_stand_lower(e, all, found.floor, plate);
+    found.scene.plates.push_back(plate);
     int last = 0;
     bool left = false, right = false;
     for (const Stance& stance : group) {
@@ -292,7 +325,7 @@ void find_seats(const SupportedMotion& e, const std::vector<Group>& steps, Found
   };
   // An estimate wanders up and down as a whole: a seat is as high as the hips are over standing feet.
   const auto ground_at = [&](int t) {
-    const double feet = 0.5 * (e.lowest_of(t, foot_points(0)) + e.lowest_of(t, foot_points(1)));
+    const double feet = 0.5 * (e.sole_height(t, foot_points(0)) + e.sole_height(t, foot_points(1)));
     return feet < found.floor + kLowestPlate ? feet : found.floor;
   };
   PerFrame<bool> sits(static_cast<std::size_t>(e.frames()), false);
@@ -311,7 +344,7 @@ void find_seats(const SupportedMotion& e, const std::vector<Group>& steps, Found
     }
     if (median(without) < kSeatMissing || median(with) > kSeatExplained) return;
     const double height = median(heights);
-    Plate plate = plate_under(e, {{first, last, seat, height}}, ahead, height);
+    Plate plate = plate_under(e, {{first, last, seat, height}}, ahead, height, kMargin);
     plate.stiffness = kCushion;
     plate.damping = kCushionDamping;
     plate.height += plate.give();  // the body lies in it
@@ -336,7 +369,9 @@ FoundScene find_scene(const motion::Clip& clip) {
   if (lowest.empty())
     for (int t = 0; t < e.frames(); ++t)
       lowest.push_back(std::min(e.lowest_of(t, foot_points(0)), e.lowest_of(t, foot_points(1))));
-  found.floor = *std::min_element(lowest.begin(), lowest.end());
+  const double least = *std::min_element(lowest.begin(), lowest.end());
+  std::erase_if(lowest, [&](double height) { return height > least + kSameHeight; });
+  found.floor = median(lowest);
   std::vector<Group> steps;
   find_steps(e, found, steps);
   find_seats(e, steps, found);

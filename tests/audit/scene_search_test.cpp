@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -44,6 +45,28 @@ TEST(FindScene, FindsEveryStepAtItsHeightAndPlace) {
           k.scene.plates[i].spans({found.scene.plates[i].centre.x(), found.scene.plates[i].centre.y(), 0.0}));
     }
   }
+}
+
+// Its margin would otherwise be the side of a box in which the toes of a foot on the step before stand.
+TEST(FindScene, StepEndsWhereAFootStandsLower) {
+  const Known k = known("stairs_up");
+  const Scene found = find_scene(k.clip).scene;
+  const Character c = motion::character_of(k.clip);
+  const PerFrame<BodyPoses> poses = motion::poses_of(k.clip);
+  int lower = 0, inside = 0;
+  for (int t = 1; t < poses.count(); ++t)
+    for (int i = 0; i < kFootPoints; ++i) {
+      const ContactPoint& point = c.contact_points[i];
+      const Vector3d p = lowest_position(point, poses[t]), before = lowest_position(point, poses[t - 1]);
+      if ((p - before).norm() * k.clip.fps > 0.02 || std::abs(k.scene.clearance(p)) > 0.002) continue;
+      for (const Plate& plate : found.plates) {
+        if (p.z() > plate.height - 0.05) continue;
+        inside += plate.spans(p);
+        ++lower;
+      }
+    }
+  EXPECT_GT(lower, 500);
+  EXPECT_LT(inside, lower / 100);  // of feet that are about to leave
 }
 
 TEST(FindScene, FindsTheSeatAsACushionUnderTheHips) {
