@@ -181,6 +181,9 @@ function(mimicx_library name)
   endif()
 endfunction()
 
+# These start first, else the last of them would run alone for half a minute.
+set(MIMICX_LONGEST_SUITES Cli Adapt Plan Fit ShippedOptions AddNoise Synthesize Pretrain PlanMotions)
+
 # mimicx_add_suites(TARGET): one test of ctest per suite of the program: the tests of a suite share what they have made,
 # synthetic motions above all.
 function(mimicx_add_suites target)
@@ -197,6 +200,9 @@ function(mimicx_add_suites target)
   list(REMOVE_DUPLICATES suites)
   foreach(suite ${suites})
     add_test(NAME ${suite} COMMAND ${target} --gtest_filter=${suite}.*:*/${suite}.*:${suite}/*)
+    if(suite IN_LIST MIMICX_LONGEST_SUITES)
+      set_tests_properties(${suite} PROPERTIES COST 10)
+    endif()
   endforeach()
 endfunction()
 
