@@ -264,9 +264,9 @@ std::string plate_in_words(const char* what, double height, const char* under, i
   return text;
 }
 
-void find_steps(const SupportedMotion& e, FoundScene& found, std::vector<Group>& accepted) {
-  const std::vector<Stance> all = stances(e);
-  if (all.empty()) return;
+/// @param all  stances
+void find_steps(const SupportedMotion& e, const std::vector<Stance>& all, FoundScene& found,
+                std::vector<Group>& accepted) {
   const std::vector<Group> groups = raised_groups(all, found.floor);
   for (const Group& group : groups) {
     std::vector<double> without, with, carried;
@@ -373,7 +373,7 @@ FoundScene find_scene(const motion::Clip& clip) {
   std::erase_if(lowest, [&](double height) { return height > least + kSameHeight; });
   found.floor = median(lowest);
   std::vector<Group> steps;
-  find_steps(e, found, steps);
+  find_steps(e, all, found, steps);
   find_seats(e, steps, found);
   return found;
 }

@@ -47,17 +47,12 @@ SideDepths side_depths(const System& system, const Data<double>& d) {
         to_eigen(d.p_WB[sphere.body]) + to_eigen(d.q_WB[sphere.body]).toRotationMatrix() * sphere.p_B;
     const WayOut way = system.scene.way_out(p, sphere.radius);
     out.depth[k] = way.depth;
-    auto row = out.by_tangent.row(k);
-    row.head<3>() = -way.direction;
-    for (int body = sphere.body; body >= 0; body = kParents[body]) {
-      const Matrix3d R = to_eigen(d.q_WB[body]).toRotationMatrix();
+    if (way.depth == 0.0) continue;
+    out.by_tangent.row(k).head<3>() = -way.direction;
+    for_each_rotation(d, sphere.body, [&](int body, const Vector3d& axis, int coordinate) {
       const Vector3d arm = p - to_eigen(d.p_WB[body]);
-      const int first = body == 0 ? kRootRotation : kJointRotation + first_dof(body);
-      for (int n = 0; n < (is_hinge(body) ? 1 : 3); ++n) {
-        const Vector3d axis = is_hinge(body) ? Vector3d(R * hinge_axis(body)) : Vector3d(R.col(n));
-        row[first + n] = -way.direction.dot(axis.cross(arm));
-      }
-    }
+      out.by_tangent(k, coordinate) = -way.direction.dot(axis.cross(arm));
+    });
   }
   return out;
 }

@@ -89,17 +89,12 @@ SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d)
     rows.col(2) = by_height;
     rows.block<2, 2>(0, kRootVelocity).diagonal().setConstant(near);
     rows.col(kRootVelocity + 2) = by_rise;
-    for (int body = system.sole[k].body; body >= 0; body = kParents[body]) {
-      const Matrix3d R = to_eigen(d.q_WB[body]).toRotationMatrix();
+    for_each_rotation(d, system.sole[k].body, [&](int body, const Vector3d& a, int coordinate) {
       const Vector3d arm = p - to_eigen(d.p_WB[body]);
-      const int first = body == 0 ? kRootRotation : kJointRotation + first_dof(body);
-      for (int n = 0; n < (is_hinge(body) ? 1 : 3); ++n) {
-        const Vector3d a = is_hinge(body) ? Vector3d(R * hinge_axis(body)) : Vector3d(R.col(n));
-        const Vector3d moved = a.cross(arm), faster = by_angle(d, body, arm, v, a);
-        rows.col(first + n) = near * faster.head<2>() + moved.z() * by_height + faster.z() * by_rise;
-        rows.col(kPositions + first + n) = near * moved.head<2>() + moved.z() * by_rise;
-      }
-    }
+      const Vector3d moved = a.cross(arm), faster = by_angle(d, body, arm, v, a);
+      rows.col(coordinate) = near * faster.head<2>() + moved.z() * by_height + faster.z() * by_rise;
+      rows.col(kPositions + coordinate) = near * moved.head<2>() + moved.z() * by_rise;
+    });
   }
   return J;
 }

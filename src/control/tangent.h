@@ -16,6 +16,7 @@
 
 #include "core/containers.h"
 #include "physics/data.h"
+#include "physics/lanes.h"
 
 namespace mimicx::control {
 
@@ -41,6 +42,19 @@ struct Dof {
 };
 /// All actuated degrees of freedom, in the order of first_dof.
 const Array<Dof, kDofs>& dofs();
+
+/// Calls visit(above, axis, k) for every rotation that moves a body, its own and those of its ancestors.
+/// @param d  kinematics of the state
+/// @param visit  above: the body that turns about its joint; axis: in the world; k: coordinate of the pose
+template <class Visit>
+void for_each_rotation(const Data<double>& d, int body, const Visit& visit) {
+  for (int above = body; above >= 0; above = kParents[above]) {
+    const Matrix3d R = to_eigen(d.q_WB[above]).toRotationMatrix();
+    const int first = above == 0 ? kRootRotation : kJointRotation + first_dof(above);
+    for (int n = 0; n < (is_hinge(above) ? 1 : 3); ++n)
+      visit(above, is_hinge(above) ? Vector3d(R * hinge_axis(above)) : Vector3d(R.col(n)), first + n);
+  }
+}
 
 /// a ⊖ b, lane by lane, along the shorter rotations.
 template <class T>

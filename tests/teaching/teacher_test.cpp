@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rl/tracking/tracking_fixture.h"
 #include "rl/tracking/tracking_rollout.h"
 #include "teaching/taught_motion.h"
 
@@ -35,11 +36,7 @@ TEST(Teacher, ControlsOnThePlannedStatesRepeatTheMotion) {
 }
 
 TEST(Teacher, RepeatsAMotionOnAPlate) {
-  motion::Reference high = short_squat();
-  high.scene.plates.push_back({{0.0, 0.0}, 0.4, {20.0, 20.0}, 0.25});
-  for (motion::ReferenceFrame& frame : high.frames) frame.p_root.z() += 0.25;
-  for (BodyPoses& pose : high.poses)
-    for (Vector3d& p : pose.p_WB) p.z() += 0.25;
+  const motion::Reference high = rl::tracking::on_a_plate(short_squat());
   const control::System system =
       control::make_system(high.character, {}, rl::tracking::simulator_states(high), high.fps, high.scene);
   const control::Plan plan = control::make_plan(system, {}, {.threads = 2});

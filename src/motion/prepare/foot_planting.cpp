@@ -17,8 +17,7 @@ constexpr double kSigmaHeight = 0.001;  ///< m, of a standing point
 constexpr double kSigmaSlip = 0.0006;   ///< m per frame, of a standing point
 constexpr double kSigmaDepth = 0.0005;  ///< m, of a point below the floor
 constexpr double kSigmaSide = 0.002;    ///< m, of a point in the side of a box
-constexpr double kResting =
-    0.01;  ///< m: up to here from the floor or a side, what came into it is held on it
+constexpr double kResting = 0.01;  ///< m from the floor or a side: so far, what came into it is held on it
 constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged

@@ -44,6 +44,15 @@ inline Pose moved(const Character& character, const Pose& pose, double angle, co
   return pose_of(character, f);
 }
 
+/// The same motion on a plate of 20 m around the origin, 0.25 m over the floor.
+inline motion::Reference on_a_plate(motion::Reference reference) {
+  reference.scene.plates.push_back({{0.1, 0.2}, 0.4, {20.0, 20.0}, 0.25});
+  for (motion::ReferenceFrame& frame : reference.frames) frame.p_root.z() += 0.25;
+  for (BodyPoses& pose : reference.poses)
+    for (Vector3d& p : pose.p_WB) p.z() += 0.25;
+  return reference;
+}
+
 /// A swaying stance with bent knees and arms down; `frames` at 30 fps.
 inline motion::Reference swaying_reference(int frames) {
   motion::Reference reference;

@@ -28,12 +28,7 @@ TEST(TrackingRollout, FollowsAStandingReferenceAndReportsItsForces) {
 // The policy's state counts heights from the ground: everything on a plate of 0.25 m, and it acts as on the
 // floor.
 TEST(TrackingRollout, PolicyActsOnAPlateAsOnTheFloor) {
-  const motion::Reference low = swaying_reference(16);
-  motion::Reference high = low;
-  high.scene.plates.push_back({{0.1, 0.2}, 0.4, {20.0, 20.0}, 0.25});
-  for (motion::ReferenceFrame& frame : high.frames) frame.p_root.z() += 0.25;
-  for (BodyPoses& pose : high.poses)
-    for (Vector3d& p : pose.p_WB) p.z() += 0.25;
+  const motion::Reference low = swaying_reference(16), high = on_a_plate(low);
   AgentShape shape;
   shape.observation_dim = kStateSize;
   shape.action_dim = kDofs;
