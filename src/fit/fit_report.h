@@ -8,6 +8,7 @@ namespace mimicx::fit {
 
 /// Every number is written into the manifest.
 struct FitReport {
+  bool fitted = false;  ///< false: the motion is as it was, and a note says why
   /// RMS over keypoints weighted by confidence, % of the box; `residual_after` without the constant offsets.
   double residual_before = 0, residual_after = 0;
   int iterations = 0;

@@ -75,11 +75,12 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
   if (motion.has_fit) {
     motion.fitted = fit::fit_keypoints(motion.input, config, &fitting);
     motion.fit_values = values_of(fitting);
-  } else if (correction.as_is) {
-    motion.fitted = motion.input;
-  } else {
-    motion.fitted = fit::fit_poses(motion.input, config, &planting);
+    motion.has_fit = fitting.fitted;
   }
+  if (correction.as_is)
+    motion.fitted = motion.input;
+  else if (!motion.has_fit)
+    motion.fitted = fit::fit_poses(motion.input, config, &planting);
   for (const fit::FitReport* report : {&fitting, &planting})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "core/temporary_folder.h"
 #include "core/units.h"
 #include "motion/clip_file.h"
@@ -28,6 +31,49 @@ TEST(Preparation, KeptKeypointsOfAnUnfittedReferenceAreThoseOfTheInput) {
     EXPECT_EQ(kept.reference.keypoints->uvc, kept.input.keypoints->uvc);
     EXPECT_FALSE(kept.has_fit);
   }
+}
+
+// Whoever names the wrong files, or the wrong camera, would get a motion that is metres off.
+TEST(Preparation, KeypointsThatContradictTheMotionAreSaidAndIgnored) {
+  const TemporaryFolder folder;
+  const PreparedMotion ignored = prepare_motion(kNoisy, {}, {});
+  const auto prepared_with = [&](const std::function<void(motion::Keypoints&)>& change) {
+    motion::Clip clip = motion::read_clip(kNoisy);
+    change(*clip.keypoints);
+    motion::write_clip(folder.path / "stand_1.npz", clip);
+    return prepare_motion(folder.path / "stand_1.npz", {}, {.fit = true});
+  };
+  const motion::Keypoints others = *motion::read_clip(kNoisy.parent_path() / "walk_turn_1.npz").keypoints;
+  const auto of_another_motion = [&](motion::Keypoints& k) {
+    for (std::size_t t = 0; t < k.uvc.size(); ++t) k.uvc[t] = others.uvc[t % others.uvc.size()];
+  };
+  const auto inverse_camera = [](motion::Keypoints& k) {
+    for (Eigen::Matrix4d& camera : k.extrinsics) camera = camera.inverse().eval();
+  };
+  for (const std::function<void(motion::Keypoints&)>& change :
+       {std::function<void(motion::Keypoints&)>(of_another_motion),
+        std::function<void(motion::Keypoints&)>(inverse_camera)}) {
+    const PreparedMotion prepared = prepared_with(change);
+    EXPECT_FALSE(prepared.has_fit);
+    EXPECT_FALSE(prepared.reference.keypoints.has_value());
+    ASSERT_FALSE(prepared.notes.empty());
+    EXPECT_NE(prepared.notes.front().find("not fitted"), std::string::npos) << prepared.notes.front();
+    for (int t = 0; t < ignored.reference.size(); ++t)
+      EXPECT_LT((prepared.reference.frames[t].p_root - ignored.reference.frames[t].p_root).norm(), 1e-4);
+  }
+}
+
+TEST(Preparation, SaysThatKeypointsOfAHalfSizedPictureMoveThePersonAway) {
+  motion::Clip clip = motion::read_clip(kNoisy);
+  for (auto& frame : clip.keypoints->uvc)
+    for (Vector3d& point : frame) point.head<2>() *= 0.5;
+  clip.keypoints->intrinsics.topRightCorner<2, 1>() *= 0.5;  // only the focal length is of the whole picture
+  const TemporaryFolder folder;
+  motion::write_clip(folder.path / "stand_1.npz", clip);
+  const PreparedMotion prepared = prepare_motion(folder.path / "stand_1.npz", {}, {.fit = true});
+  EXPECT_TRUE(std::any_of(prepared.notes.begin(), prepared.notes.end(), [](const std::string& note) {
+    return note.find("are keypoints and camera of pictures of one size?") != std::string::npos;
+  }));
 }
 
 TEST(Preparation, AsIsChangesNoPose) {

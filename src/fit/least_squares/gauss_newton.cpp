@@ -22,6 +22,9 @@ namespace {
 constexpr int kDraws = 3;                       ///< samples of the solution's error, for the levels
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
+constexpr double kDoubtful = 1.5;         ///< % of the box; of detectors and estimators 0.3 to 0.5
+constexpr double kContradiction = 3.0;    ///< the same: then the keypoints are ignored
+constexpr double kFartherAway = 1.5;      ///< times as far from the camera; estimators err by less
 constexpr double kToldSceneShift = 0.02;  ///< m
 constexpr int kUnsettled = 3;             ///< iterations until the motion is on the floor
 constexpr int kFewest = 7;                ///< iterations; those after the unsettled ones find the levels
@@ -66,13 +69,15 @@ PerFrame<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const 
 }
 
 struct Residual {
-  double rms = 0.0;  ///< % of the box
+  double rms = 0.0;     ///< % of the box
+  double middle = 0.0;  ///< median distance, % of the box: outliers do not matter
   int dropped = 0;
 };
 
 Residual residual_of(const FitProblem& problem, const FitState& state, const Evaluated& e) {
   Residual out;
   double squares = 0.0, weights = 0.0;
+  std::vector<double> distances;
   for (int t = 0; t < problem.frames(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
       const double confidence = problem.uvc[t][k].z();
@@ -80,11 +85,28 @@ Residual residual_of(const FitProblem& problem, const FitState& state, const Eva
       if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.config.keypoint_kernel)
         ++out.dropped;
       if (confidence <= 0.0 || !seen.valid) continue;
+      distances.push_back(seen.error.norm());
       squares += confidence * seen.error.squaredNorm();
       weights += confidence;
     }
-  if (weights > 0.0) out.rms = kPercent * std::sqrt(squares / weights);
+  if (weights <= 0.0) return out;
+  out.rms = kPercent * std::sqrt(squares / weights);
+  out.middle = kPercent * median(distances);
   return out;
+}
+
+/// @param distance  median distance of the detections after the fit, % of the box
+/// @throws std::domain_error where the keypoints are of another motion or another camera
+void require_agreement(double distance, FitReport& report) {
+  if (distance <= kDoubtful) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "half of the keypoints are over %.1f %% of the person's height away from the best fit: are they of "
+      "this motion, and of this camera?",
+      distance);
+  if (distance > kContradiction) throw std::domain_error(text);
+  report.notes.emplace_back(text);
 }
 
 /// Moves the state along a Gauss-Newton step, shortened where a joint would turn too far.
@@ -212,7 +234,28 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   const Residual residual = residual_of(problem, state, e);
   report.residual_after = residual.rms;
   report.dropped_points = residual.dropped;
+  if (!problem.poses_alone) require_agreement(residual.middle, report);
   return state;
+}
+
+/// Keypoints of a picture at half its size put the person twice as far away.
+void report_distance(const motion::Clip& before, const motion::Clip& after, FitReport& report) {
+  std::vector<double> depth_before, depth_after;
+  for (int t = 0; t < before.frames(); ++t) {
+    const Eigen::Matrix4d& camera = motion::camera_at(before.keypoints->extrinsics, t);
+    const auto depth = [&](const motion::Clip& clip) { return (camera * clip.trans[t].homogeneous()).z(); };
+    depth_before.push_back(depth(before));
+    depth_after.push_back(depth(after));
+  }
+  const double from = median(depth_before), to = median(depth_after);
+  if (to < kFartherAway * from && from < kFartherAway * to) return;
+  char note[200];
+  std::snprintf(
+      note, sizeof note,
+      "the keypoint fit moves the person from %.1f to %.1f m from the camera: are keypoints and camera "
+      "of pictures of one size?",
+      from, to);
+  report.notes.emplace_back(note);
 }
 
 void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
@@ -230,6 +273,8 @@ motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& re
   try {
     const FitState state = iterate(problem, report);
     const motion::Clip fitted = result_of(clip, problem, state);
+    report.fitted = true;
+    if (!problem.poses_alone) report_distance(clip, fitted, report);
     report.focal_scale = exp(state.g[kLogFocal]);
     report.tilt_deg = state.g[kTilt] / kDegree;
     report_levels(problem, state, report);
