@@ -19,31 +19,22 @@ struct PlanArguments {
   RunArguments more;
 };
 
-/// The scene of the only motion of the run: found from it where that is asked for; else a line if the motion
-/// looks as if it had one.
-void settle_scene(const import::ReadConfig& asked, run::RunConfig& run) {
-  if (asked.scene || run.inputs.size() != 1) return;
-  import::ReadConfig read = asked;
-  read.scene_from_motion = false;
-  run.read = read;
-  if (run.quiet && !asked.scene_from_motion) return;
+/// The scene of the only motion of the run, found from it.
+void find_scene_of(run::RunConfig& run) {
+  run.read.scene_from_motion = false;
   audit::FoundScene found;
   try {
-    const motion::Clip clip = import::read_motion(run.inputs.front(), read);
+    const motion::Clip clip = import::read_motion(run.inputs.front(), run.read);
     if (!clip.scene.flat()) return;
     found = audit::find_scene(clip);
   } catch (const std::exception& error) {
     return;  // the run tells why the motion cannot be read
   }
-  if (asked.scene_from_motion) {
-    for (const std::string& line : found.words) std::cerr << "scene: " << line << '\n';
-    if (found.scene.flat())
-      std::cerr << "scene: no plate found; planned on the flat floor\n";
-    else
-      run.read.scene = found.scene;
-  } else if (!found.scene.flat()) {
-    std::cerr << "looks like steps or a seat (" << found.words.front() << "): try --scene auto\n";
-  }
+  for (const std::string& line : found.words) std::cerr << "scene: " << line << '\n';
+  if (found.scene.flat())
+    std::cerr << "scene: no plate found; planned on the flat floor\n";
+  else
+    run.read.scene = found.scene;
 }
 
 int plan(PlanArguments a) {
@@ -56,7 +47,9 @@ int plan(PlanArguments a) {
     throw UsageError("plan: --scene auto with --out takes one motion; leave out --out, or plan one by one");
   return with_context(a.config.run.quiet, [&](const record::RunContext& context) {
     return run_inputs(a.config.run, a.more.json, context, [&] {
-      settle_scene(asked, a.config.run);
+      a.config.run.read = asked;
+      if (asked.scene_from_motion && !asked.scene && a.config.run.inputs.size() == 1)
+        find_scene_of(a.config.run);
       return plan::plan_motions(a.config, context);
     });
   });

@@ -140,7 +140,8 @@ std::vector<std::string> what_next(const record::SequenceEntry& entry, const rec
     if (name == "infeasible_share") infeasible = value;
   if (const std::string ended = ended_by(entry); !ended.empty()) lines.push_back(ended);
   if (infeasible > 0.0)
-    lines.push_back("the reference is not feasible for any body: mimicx audit --poses '" + entry.input +
+    lines.push_back("the reference is not feasible for any body: mimicx audit --poses '" +
+                    folder.reference(entry.name).string() +
                     "' --frames-csv frames.csv lists the frames; remove or correct them");
   return lines;
 }

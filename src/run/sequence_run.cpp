@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "audit/scene_search.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npz.h"
@@ -104,6 +105,14 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
   return false;
 }
 
+/// A note where a motion on the flat floor looks as if something else stood there; else empty.
+std::string look_for_a_scene(const motion::Clip& clip) {
+  if (!clip.scene.flat() || clip.frames() < 3) return "";
+  const audit::FoundScene found = audit::find_scene(clip);
+  if (found.scene.flat()) return "";
+  return "looks like steps or a seat (" + found.words.front() + "): try mimicx plan --scene auto";
+}
+
 /// Reads, fits and prepares the input, and prints the decisions before any training: a user who sees a wrong
 /// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
@@ -117,6 +126,7 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
+  if (const std::string seen = look_for_a_scene(motion.input); !seen.empty()) entry.notes.push_back(seen);
   entry.input_metrics = motion.input_scores.values;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;

@@ -97,7 +97,7 @@ TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
   EXPECT_TRUE(says(found, "a seat of 0.3")) << found.text;
   const Call flat = mimicx("plan " + path("a.npz") + " --limit-seconds 1e-9 --out " + path("flat"));
   EXPECT_TRUE(says(flat, "looks like steps or a seat (a seat of 0.3")) << flat.text;
-  EXPECT_TRUE(says(flat, "): try --scene auto")) << flat.text;
+  EXPECT_TRUE(says(flat, "): try mimicx plan --scene auto")) << flat.text;
   const Call on_seat = mimicx("plan " + path("a.npz") + " --scene auto --out " + path("seated"));
   EXPECT_EQ(on_seat.status, 0) << on_seat.text;
   EXPECT_TRUE(says(on_seat, "scene: a seat of 0.3")) << on_seat.text;
