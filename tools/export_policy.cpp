@@ -112,8 +112,9 @@ void export_options(const AskedOptions& asked, const Character& body,
                     std::vector<policy_export::ExportedPolicy>& exported) {
   const auto set = pipeline::options::read_options(asked.file);
   const std::string file = asked.file.string();
-  if (set->absolute_actions)
-    throw DataError(file, "", "options whose actions are rotations on the target's pose", "absolute ones");
+  if (set->actions != rl::tracking::ActionSettings())
+    throw DataError(file, "", "options whose actions are rotations on the target's pose",
+                    "options of residual_actions=0, velocity_feed_forward=0 or target_ramp=0");
   const int count = set->options.count();
   if (asked.number && *asked.number >= count)
     throw UsageError(file + " has the options 0 to " + std::to_string(count - 1) + ", no option" +

@@ -54,7 +54,14 @@ run::SimulatedSequence fine_tune(const motion::Reference& reference, const optio
   }
   run::SequenceJob rest = run::after_seconds(job, record::steady_seconds() - watch.started);
   rest.input_checksum = start_of_training(job, *sets[chosen.set], arranged.options);
-  run::SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, training, rest);
+  TrainingConfig tuning = training;
+  const rl::tracking::MeanAction untouched = rl::tracking::mean_action(arranged.agents);
+  const bool good_enough =
+      training.stop_reward > 0.0 &&
+      rl::tracking::roll_out(arranged.clip, tracking, untouched).mean_reward >= training.stop_reward;
+  if (good_enough) tuning.samples = 0;
+  run::SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, tuning, rest);
+  if (good_enough) made.ending = record::SequenceEnding::kThreshold;
   if (watch.timed_out) made.ending = record::SequenceEnding::kLimitSeconds;
   made.method = "options";
   made.arrangement = options::stretches_of(arranged.options);

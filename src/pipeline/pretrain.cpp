@@ -239,7 +239,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
     sizes.push_back(static_cast<int>(cluster.members.size()));
   const std::vector<std::vector<std::int64_t>> budgets = budgets_of_options(record, sizes);
   options::OptionSet set;
-  set.absolute_actions = config.training.tracking.action_mode == rl::tracking::ActionMode::kAbsolute;
+  set.actions = config.training.tracking.actions;
   record::Json trained = record::Json::array();
   for (int index = 0; index < clusters.clusters.count(); ++index) {
     OptionTraining made =

@@ -47,6 +47,27 @@ TEST_F(Pretrain, LeavesEveryFileTheDocumentationNames) {
   EXPECT_NE(set->options[0].description, set->options[1].description);
 }
 
+TEST_F(Pretrain, OptionsAreTrainedOnTheMotionsOfTheirOwnClusterAlone) {
+  run(pretraining("run"));
+  const options::Clusters clusters = options::read_clusters(out("run") / "clusters.json");
+  ASSERT_EQ(clusters.clusters.count(), 2);
+  std::vector<int> sizes;
+  for (const options::MotionCluster& cluster : clusters.clusters)
+    sizes.push_back(static_cast<int>(cluster.members.size()));
+  for (int k = 0; k < 2; ++k) {
+    PretrainConfig alone = pretraining("alone" + std::to_string(k));
+    alone.training.samples = share_samples(alone.training.samples, sizes)[static_cast<std::size_t>(k)];
+    alone.training.seed += static_cast<std::uint64_t>(k);
+    alone.clusters.clusters = 1;
+    alone.inputs.clear();
+    for (const std::string& member : clusters.clusters[k].members)
+      alone.inputs.push_back((motions / (member + ".npz")).string());
+    run(alone);
+    EXPECT_EQ(read_file(out("run") / "training" / ("option" + std::to_string(k) + ".csv")),
+              read_file(out("alone" + std::to_string(k)) / "training" / "option0.csv"));
+  }
+}
+
 TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   PretrainConfig config = pretraining("one");
   run(config);

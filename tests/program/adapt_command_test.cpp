@@ -247,8 +247,15 @@ TEST_F(Adapt, RecordsThresholdAndStallEndings) {
   AdaptConfig config = adapting("good", "options");
   config.training.stop_reward = 1e-9;  // whatever it does is good enough
   run(config);
-  EXPECT_EQ(record::read_manifest(out("good") / "manifest.json").sequences.at(0).ending,
-            record::SequenceEnding::kThreshold);
+  record::SequenceEntry entry = record::read_manifest(out("good") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kThreshold);
+  EXPECT_EQ(entry.samples, 0) << "the options were good enough as they are";
+  config = adapting("never", "options");
+  config.training.stop_reward = 1.5;  // rewards are at most 1
+  run(config);
+  entry = record::read_manifest(out("never") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kBudget);
+  EXPECT_GE(entry.samples, config.training.samples);
   config = adapting("stalled", "options");
   config.training.stall_evaluations = 1;
   config.training.ppo.step_size = config.training.ppo.step_max = config.training.ppo.step_min = 1e-30;
@@ -321,13 +328,15 @@ TEST_F(Adapt, RejectsImpossibleArrangementSettings) {
 
 TEST_F(Adapt, RefusesOptionsOfTheOtherActions) {
   pipeline::PretrainConfig pretrained = pretraining("absolute");
-  pretrained.training.tracking.action_mode = rl::tracking::ActionMode::kAbsolute;
+  pretrained.training.tracking.actions.mode = rl::tracking::ActionMode::kAbsolute;
   pretrained.training.samples = 0;
   run(pretrained);
   AdaptConfig config = adapting("run", "absolute");
-  EXPECT_NE(refusal_of([&] { run(config); }).find("residual actions (residual_actions 1), found others"),
+  EXPECT_NE(refusal_of([&] { run(config); })
+                .find("expected policies trained with residual_actions=1, velocity_feed_forward=1, "
+                      "target_ramp=1, found residual_actions=0"),
             std::string::npos);
-  config.training.tracking.action_mode = rl::tracking::ActionMode::kAbsolute;
+  config.training.tracking.actions.mode = rl::tracking::ActionMode::kAbsolute;
   config.training.samples = 0;
   EXPECT_NE(run(config), record::RunOutcome::kInterrupted) << "these can be used";
   EXPECT_TRUE(std::filesystem::exists(out("run") / "manifest.json"));

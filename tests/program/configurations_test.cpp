@@ -126,14 +126,16 @@ TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
                                            {"as_is", 1},
                                            {"residual_actions", 0},
                                            {"velocity_feed_forward", 0},
+                                           {"target_ramp", 0},
                                            {"reward_root_position", task.reward.root_rotation},
+                                           {"reward_projection", 4},
                                            {"reward_target", 0},
                                            {"uniform_starts", 1},
-                                           {"sigma_start", 0.055},
-                                           {"sigma_end", 0.055},
+                                           {"sigma_start", 0.11},
+                                           {"sigma_end", 0.11},
                                            {"penalty_weight", 0.002}};
   EXPECT_EQ(settings_changed("pretrain small", "pretrain printed"), printed);
-  printed.insert({{"selector", 0}, {"rescue_frames", 0}, {"stall_evaluations", 0}});
+  printed.insert({{"selector", 0}, {"rescue_frames", 0}, {"stall_evaluations", 0}, {"stop_reward", 0.9}});
   EXPECT_EQ(settings_changed("adapt", "adapt printed"), printed);
   const NamedValues adapt = manifest_settings(printed_adaptation());
   EXPECT_EQ(value_of(adapt, "keypoints"), 1.0) << "Eq. 3 acts without a fit";

@@ -43,7 +43,8 @@ double lowest(const std::filesystem::path& log, const std::string& column) {
 TEST_F(PrintedMethod, TrainsOptionsAndFineTunesThem) {
   EXPECT_EQ(run(printed_options("options")), record::RunOutcome::kAllGood);
   const auto options = pipeline::options::read_options(out("options"));
-  EXPECT_TRUE(options->absolute_actions);
+  EXPECT_EQ(options->actions,
+            (rl::tracking::ActionSettings{rl::tracking::ActionMode::kAbsolute, false, false}));
   EXPECT_TRUE(options->options[0].option.encoder.has_value());
   run(printed("run", "options"));
   const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
@@ -92,9 +93,10 @@ TEST_F(PrintedMethod, HasOneSetOfOptionsOfAbsoluteActions) {
   pipeline::PretrainConfig other = pretraining("residual");
   other.training.samples = 0;
   run(other);
-  EXPECT_NE(
-      refusal_of([&] { run(printed("run", "residual")); }).find("expected policies of absolute actions"),
-      std::string::npos);
+  EXPECT_NE(refusal_of([&] {
+              run(printed("run", "residual"));
+            }).find("expected policies trained with residual_actions=0"),
+            std::string::npos);
   AdaptConfig two = printed("run", "options");
   two.options.push_back(two.options.front());
   EXPECT_NE(refusal_of([&] { run(two); }).find("expected one set for --method printed, found 2"),

@@ -60,6 +60,34 @@ TEST(Ppo, UpdateReadsOnlyTheRowsItIsGiven) {
   expect_same_bytes(first_state, second_state);
 }
 
+// Advantages are of random numbers, so nothing but the penalty asks for a flatter actor.
+TEST(Ppo, PenaltyWeightFlattensTheActor) {
+  Agent steep = small_agent();
+  *nn::parameters(steep.actor).end()[-2] *= 100.0F;  // untrained actors are nearly constant
+  const RolloutBuffer buffer = random_rollout(steep, 5);
+  const std::vector<int> rows = rows_from(0, buffer.rows());
+  const auto steepness = [&](double weight) {
+    PpoConfig config = small_config();
+    config.epochs = 20;
+    config.step_size = 5e-3;
+    config.kl_stop = 1e9;
+    config.gradient_norm = 1e9;
+    config.penalty_weight = weight;
+    UpdateWorkers workers(config);
+    IterationStats stats;
+    Learner learner = make_learner(config, steep);
+    update(learner, config, {buffer, rows, 0.3}, kShuffles, workers, stats);
+    nn::Workspace<float> workspace;
+    nn::Matrix<float> left, right, at = nn::Matrix<float>::Zero(2, 2);
+    at << -1.0F, -1.0F, -1.0F, 1.0F;
+    nn::evaluate(learner.agent.actor, at, workspace, left);
+    at.col(0).setConstant(1.0F);
+    nn::evaluate(learner.agent.actor, at, workspace, right);
+    return double{(right - left).norm()};
+  };
+  EXPECT_LT(steepness(10.0), 0.5 * steepness(0.0));
+}
+
 TEST(Ppo, SlotsAndPassesChangeTheGradientByRoundingOnly) {
   const RolloutBuffer buffer = random_rollout(small_agent(), 4);
   const std::vector<int> rows = rows_from(0, buffer.rows());

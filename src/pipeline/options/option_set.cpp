@@ -8,7 +8,8 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-constexpr const char *kCount = "options.count", *kAbsoluteActions = "options.absolute_actions";
+constexpr const char *kCount = "options.count", *kAbsolute = "options.absolute_actions",
+                     *kNoFeedForward = "options.no_feed_forward", *kNoRamp = "options.no_ramp";
 
 std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
@@ -40,7 +41,12 @@ std::string checksum_of(const OptionSets& sets) {
 void write_options(const std::filesystem::path& path, const OptionSet& set) {
   Npz archive;
   archive.set(kCount, NpyArray::scalar_int(static_cast<std::int64_t>(set.options.size())));
-  if (set.absolute_actions) archive.set(kAbsoluteActions, NpyArray::scalar_int(1));
+  const auto mark = [&](const char* name, bool holds) {
+    if (holds) archive.set(name, NpyArray::scalar_int(1));
+  };
+  mark(kAbsolute, set.actions.mode == rl::tracking::ActionMode::kAbsolute);
+  mark(kNoFeedForward, !set.actions.velocity_feed_forward);
+  mark(kNoRamp, !set.actions.ramp);
   for (int k = 0; k < set.options.count(); ++k) {
     const TrainedOption& trained = set.options[k];
     const std::string prefix = prefix_of(k);
@@ -67,7 +73,10 @@ OptionSet options_from(const Npz& archive) {
   if (!(count >= 1.0 && count <= 1000.0))
     throw DataError(archive.path, kCount, "1 to 1000 options", std::to_string(count));
   OptionSet set;
-  set.absolute_actions = archive.has(kAbsoluteActions) && number_at(archive, kAbsoluteActions) != 0.0;
+  const auto marked = [&](const char* name) { return archive.has(name) && number_at(archive, name) != 0.0; };
+  if (marked(kAbsolute)) set.actions.mode = rl::tracking::ActionMode::kAbsolute;
+  set.actions.velocity_feed_forward = !marked(kNoFeedForward);
+  set.actions.ramp = !marked(kNoRamp);
   for (int k = 0; k < static_cast<int>(count); ++k) {
     const std::string prefix = prefix_of(k);
     const auto whole = [&](const char* key, std::int64_t most) {

@@ -3,7 +3,7 @@
 /// `mimicx pretrain` writes `options.npz`; `mimicx adapt` reads it. Weights are 32-bit floats; optimiser
 /// states are not part of it. Members: options.count, optionK.agent.*, optionK.encoder.*,
 /// optionK.description, optionK.centre (features, SI units), optionK.motions, optionK.samples; and
-/// options.absolute_actions, 1, only if actions are absolute.
+/// options.absolute_actions, options.no_feed_forward and options.no_ramp, 1, each only if it is so.
 #pragma once
 
 #include <filesystem>
@@ -28,9 +28,9 @@ struct TrainedOption {
 
 struct OptionSet {
   List<TrainedOption> options;
-  bool absolute_actions = false;   ///< ActionMode of all policies
-  std::string checksum;            ///< of the file; empty if it was not read from one
-  std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty if missing
+  rl::tracking::ActionSettings actions;  ///< of all policies
+  std::string checksum;                  ///< of the file; empty if it was not read from one
+  std::filesystem::path clusters;        ///< `clusters.json` beside that file; empty if missing
 };
 
 /// Sets in the order in which they are tried. Their options are numbered consecutively over all sets.

@@ -1,7 +1,7 @@
 /// The reward of the tracking task: Eq. 2 times Eq. 3.                      docs/method.md §5
 ///
 /// Every factor is exp(−w · error) in (0, 1]. Errors are means over joints, so that the weights do not depend
-/// on their number. The difference of rotations is the geodesic angle. The third velocity term of Eq. 2 is
+/// on their number. The difference of rotations is the geodesic angle. The velocity term of Eq. 2 is
 /// taken as the difference of the joints' angular velocities. Positions of hands and feet are local, as in
 /// the paper: each relative to its own root, in the frame of that root, so that an error of the root counts
 /// in the terms of the root only. Without keypoints Eq. 3 is exactly 1.

@@ -14,10 +14,19 @@ enum class ActionMode {
   kResidual,  ///< a rotation applied on top of the reference pose of frame t+1
 };
 
+/// What the PD controllers make of an action. Policies are right for the settings that they were trained with
+/// alone.
+struct ActionSettings {
+  ActionMode mode = ActionMode::kResidual;
+  bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity, not towards 0
+  bool ramp = true;  ///< the target moves from the last action to this one during the frame, not at its start
+
+  bool operator==(const ActionSettings&) const = default;
+};
+
 /// Defaults: docs/method.md §12 and docs/experiments.md.
 struct TrackingConfig {
-  ActionMode action_mode = ActionMode::kResidual;
-  bool velocity_feed_forward = true;     ///< PD damps towards the reference's joint velocity, not towards 0
+  ActionSettings actions;
   double max_action = std::numbers::pi;  ///< each entry is clamped to ± this, rad; π allows every rotation
   RewardWeights reward;
   physics::SimulationConfig simulation;
@@ -30,9 +39,11 @@ struct TrackingConfig {
 
 /// core/setting.h; those of the simulation apart (src/files/simulation_settings.h).
 void visit_settings(TrackingConfig& t, const auto& visit) {
-  visit("residual_actions", t.action_mode, 0, 1, "1: actions are added to the reference; 0: absolute");
-  visit("velocity_feed_forward", t.velocity_feed_forward, 0, 1,
+  visit("residual_actions", t.actions.mode, 0, 1, "1: actions are added to the reference; 0: absolute");
+  visit("velocity_feed_forward", t.actions.velocity_feed_forward, 0, 1,
         "1: PD damps towards the reference's velocity");
+  visit("target_ramp", t.actions.ramp, 0, 1,
+        "1: PD's target moves to the action during the frame; 0: at its start");
   visit("max_action", t.max_action, 0, 1e9, "bound of each entry of an action, rad");
   visit("reward_root_position", t.reward.root_position, 0, 1e9, "sharpness for the pelvis' position, 1/m²");
   visit("reward_root_rotation", t.reward.root_rotation, 0, 1e9, "sharpness for the pelvis' rotation, 1/rad²");

@@ -55,10 +55,10 @@ void TrackingPack::reset(int lane, int frame) {
     physics::set_lane(state_.omega[i], lane, start.frame.omega[i]);
     physics::set_lane(to_.q[i], lane, start.frame.q[i]);
     physics::set_lane(to_.omega[i], lane,
-                      config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+                      config_.actions.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
     physics::set_lane(from_.q[i], lane, start.frame.q[i]);
     physics::set_lane(from_.omega[i], lane,
-                      config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+                      config_.actions.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
   }
 }
 
@@ -94,15 +94,16 @@ void TrackingPack::observe(int lane, int option, float* out) const {
 
 void TrackingPack::act(int lane, const float* action) {
   const motion::ReferenceFrame& next = clip_->poses[frame(lane) + 1].frame;
-  const bool residual = config_.action_mode == ActionMode::kResidual;
+  const bool residual = config_.actions.mode == ActionMode::kResidual;
   for (int body = 1; body < kBodies; ++body) {
     const Vector3d rotation =
         physics::action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
     physics::set_lane(to_.q[body], lane,
                       residual ? physics::residual_target(next.q[body], rotation) : exp_map(rotation));
     physics::set_lane(to_.omega[body], lane,
-                      config_.velocity_feed_forward ? next.omega[body] : Vector3d::Zero());
+                      config_.actions.velocity_feed_forward ? next.omega[body] : Vector3d::Zero());
   }
+  if (!config_.actions.ramp) physics::copy_lane(from_, lane, to_, lane);
 }
 
 void TrackingPack::advance(physics::Data<P>& scratch, physics::Applied<P>* applied,

@@ -72,6 +72,22 @@ TEST(Rescues, OnlyFailingOptionsAreRescued) {
   EXPECT_GT(rescues, 1);
 }
 
+TEST(Rescues, FailingOptionGetsTheStateOfTheBestOneNotOfAnyThatHolds) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
+  const Option best = constant_option(rl::tracking::kStateSize, 0.0F),
+               holds = constant_option(rl::tracking::kStateSize, 0.01F),
+               bad = constant_option(rl::tracking::kStateSize, 1.5F);
+  const SideBySide alone = roll_out_side_by_side(clip, {}, {&bad, &best}, 0.3),
+                   beside = roll_out_side_by_side(clip, {}, {&bad, &holds, &best}, 0.3);
+  int rescues = 0;
+  for (int t = 1; t < 30 && beside.rewards[t][1] < beside.rewards[t][2]; ++t) {
+    EXPECT_FALSE(beside.rescued[t][1]) << t;
+    EXPECT_EQ(beside.rewards[t][0], alone.rewards[t][0]) << t << ": it goes on from the state of the best";
+    if (beside.rescued[t][0]) ++rescues;
+  }
+  EXPECT_GT(rescues, 1);
+}
+
 // A fallen character earns 0, which a threshold of 0 does not exceed.
 TEST(Rescues, FallsAreRescuedAtAThresholdOfZero) {
   rl::tracking::TrackingConfig config;

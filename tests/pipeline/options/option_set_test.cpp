@@ -51,16 +51,22 @@ TEST(OptionSet, RoundTripIsExact) {
   }
 }
 
-TEST(OptionSet, OnlyAbsoluteActionsAreNamedInTheFile) {
+TEST(OptionSet, OnlyActionsThatAreNotTheDefaultAreNamedInTheFile) {
+  using rl::tracking::ActionMode;
   const TemporaryFolder folder;
   OptionSet set = some_set();
-  for (const bool absolute : {false, true}) {
-    set.absolute_actions = absolute;
-    write_options(folder.path / "options.npz", set);
-    EXPECT_EQ(read_npz(folder.path / "options.npz").has("options.absolute_actions"), absolute)
-        << "files of earlier versions, whose actions are residual, are the same bytes";
-    EXPECT_EQ(read_options(folder.path)->absolute_actions, absolute);
-  }
+  for (const ActionMode mode : {ActionMode::kResidual, ActionMode::kAbsolute})
+    for (const bool feed_forward : {true, false})
+      for (const bool ramp : {true, false}) {
+        set.actions = {mode, feed_forward, ramp};
+        write_options(folder.path / "options.npz", set);
+        const Npz file = read_npz(folder.path / "options.npz");
+        EXPECT_EQ(file.has("options.absolute_actions"), mode == ActionMode::kAbsolute)
+            << "files of earlier versions, whose actions are residual, are the same bytes";
+        EXPECT_EQ(file.has("options.no_feed_forward"), !feed_forward);
+        EXPECT_EQ(file.has("options.no_ramp"), !ramp);
+        EXPECT_EQ(read_options(folder.path)->actions, set.actions);
+      }
 }
 
 TEST(OptionSet, SetsAreNumberedConsecutivelyAndNamedByChecksum) {

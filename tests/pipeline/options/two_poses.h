@@ -30,7 +30,7 @@ inline motion::Reference two_poses(int frames) {
 /// the other. A body that only holds a pose leans in time; here that is no fall.
 inline rl::tracking::TrackingConfig absolute_actions() {
   rl::tracking::TrackingConfig config;
-  config.action_mode = rl::tracking::ActionMode::kAbsolute;
+  config.actions.mode = rl::tracking::ActionMode::kAbsolute;
   config.terminate_distance = 2.0;
   return config;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "physics/lanes.h"
 #include "physics/pd_target.h"
 #include "rl/tracking/tracking_fixture.h"
 
@@ -27,7 +28,7 @@ TEST(TrackingPack, ActionHas55EntriesAndZeroResidualAimsAtTheReference) {
 TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
   // Absolute actions equal to the next reference pose must give the motion of zero residuals.
   TrackingConfig absolute, residual;
-  absolute.action_mode = ActionMode::kAbsolute;
+  absolute.actions.mode = ActionMode::kAbsolute;
   const auto clip = make_tracking_clip(swaying_reference(30), residual);
   TrackingPack a(clip, absolute), r(clip, residual);
   physics::Data<TrackingPack::P> scratch;
@@ -52,6 +53,35 @@ TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
   }
   for (int i = 0; i < kBodies; ++i)
     EXPECT_LT((a.pose(0).p_WB[i] - r.pose(0).p_WB[i]).norm(), 1e-4) << kBodyNames[i];
+}
+
+TEST(TrackingPack, WithoutRampAndFeedForwardTheTargetIsTheActionInEveryStep) {
+  TrackingConfig config;
+  config.actions = {ActionMode::kAbsolute, false, false};
+  const auto clip = make_tracking_clip(swaying_reference(30), config);
+  Array<float, kDofs> action{};
+  for (int dof = 0; dof < kDofs; ++dof) action[dof] = 0.01F * static_cast<float>(dof % 7 - 3);
+  const auto difference_at_first = [&](bool ramp) {
+    config.actions.ramp = ramp;
+    TrackingPack pack(clip, config);
+    physics::Data<TrackingPack::P> scratch;
+    for (int lane = 0; lane < physics::kLanes; ++lane) pack.act(lane, action.data());
+    double first = -1.0, last = -1.0;
+    pack.advance(scratch, nullptr, [&](const auto&, const auto& target, const auto&, const auto&) {
+      last = 0.0;
+      for (int body = 1; body < kBodies; ++body) {
+        const Vector3d rotation =
+            physics::action_rotation(body, config.max_action, [&](int dof) { return action[dof]; });
+        last = std::max(last, exp_map(rotation).angularDistance(physics::lane_of(target.q[body], 0)));
+        EXPECT_EQ(physics::lane_of(target.omega[body], 0), Vector3d::Zero()) << kBodyNames[body];
+      }
+      if (first < 0.0) first = last;
+    });
+    EXPECT_LT(last, 1e-3) << "float32";
+    return first;
+  };
+  EXPECT_LT(difference_at_first(false), 1e-3);
+  EXPECT_GT(difference_at_first(true), 0.1) << "the ramp starts from the reference";
 }
 
 /// The largest rotations of a joint's range: hinges at their ends, ball joints on a grid of the ellipsoid.
