@@ -7,7 +7,9 @@
 #include "fuzz/driver.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
+extern "C" {
 #include "verify.h"
+}
 
 namespace mimicx::fuzz {
 

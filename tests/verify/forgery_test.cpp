@@ -15,7 +15,9 @@
 #include "physics/lanes.h"
 #include "physics/step.h"
 #include "rl/tracking/tracking_clip.h"
+extern "C" {
 #include "verify.h"
+}
 
 namespace mimicx::audit {
 namespace {
