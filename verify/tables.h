@@ -67,6 +67,6 @@ static const struct { const char *name, *unit; double tolerance; } RULE_TABLE[] 
     {"bounds of the torques", "", 1e-9}, {"no force on a point in the air", "N", 1e-9},
     {"ground's push by its law, or no force", "N", 1e-5}, {"friction against the slip", "N", 1e-5},
     {"friction beyond its cone, of the push", "", 0.1}, {"pull of the ground, of the push", "", 0.1},
-    {"push that is absent, of the push", "", 0.2}, {"deepest point", "m", 0.05}, {"claims", "", 1e-6},
+    {"push that is absent, of the push", "", 0.2}, {"deepest point in the floor", "m", 0.05}, {"claims", "", 1e-6},
     {"plates of the motion file, in their ranges", "", 0}};
 #endif
