@@ -114,8 +114,9 @@ typedef struct {
     Quaternion target[JOINTS]; Vec target_spin[JOINTS], torque[JOINTS], force[POINTS]; /* of joints: from joint 1 on */
 } Step;
 enum { NUMBERS_START = 80, PLATES_START = NUMBERS_START + sizeof(Header), HASH_SIZE = 32 };
-/* A member of the motion file: its numbers, how many, in how many rows, and how many members have its name. */
-typedef struct { const Byte *numbers; double count, rows; int members; } Array;
+/* A member of the motion file: its numbers, row by row. NO_ARRAY: it has another form, or is there twice. */
+typedef struct { const Byte *numbers; double rows, columns; } Array;
+static const Array NO_ARRAY = {NULL, NAN, NAN};
 /* What the rules share: the file, the step that is looked at, the body, the floor and the plates, and sums. */
 typedef struct {
     const Byte *file, *steps;
@@ -273,50 +274,44 @@ static void check_header(Check *check) {
 }
 
 /* ---- The motion file: section "The motion file" ---- */
-/* Reads a member as an array of NumPy, which has no numbers if it has another form. A size that is missing is 1. */
-static Array read_array(const Byte *member, uint64_t size, int members) {
-    static const char START[] = "{'descr': '<f8', 'fortran_order': False, 'shape': (", END[] = "), }";
-    const Array none = {NULL, 0, 0, members};
-    uint64_t text_size = size < 10 ? size : integer_at(member + 8, 2);
-    if (text_size < strlen(START) || 10 + text_size > size || memcmp(member, "\x93NUMPY\1\0", 8) != 0) return none;
-    const Byte *at = member + 10 + strlen(START), *numbers = member + 10 + text_size, *end = numbers;
-    while (end > at && (end[-1] == ' ' || end[-1] == '\n')) end--;
-    if ((size_t)(end - at) < strlen(END) || memcmp(end - strlen(END), END, strlen(END)) != 0) return none;
+/* Reads a member as an array of NumPy. A size that is missing is 1. */
+static Array read_array(const Byte *member, uint64_t size) {
+    static const char START[] = "\x93NUMPY\1\0v\0{'descr': '<f8', 'fortran_order': False, 'shape': (";
+    if (size < 128 || memcmp(member, START, sizeof START - 1) != 0 || member[127] != '\n') return NO_ARRAY;
+    const Byte *at = member + sizeof START - 1;
     double sizes[2] = {1, 1};
     for (int i = 0; i < 2 && *at != ')'; i++) {
         for (sizes[i] = 0; *at >= '0' && *at <= '9'; at++) sizes[i] = 10 * sizes[i] + (*at - '0');
         if (*at == ',') at += at[1] == ' ' ? 2 : 1;
     }
-    int holds = memcmp(member + 10, START, strlen(START)) == 0 && at == end - strlen(END) &&
-                8 * sizes[0] * sizes[1] == (double)(size - 10 - text_size);
-    return holds ? (Array){numbers, sizes[0] * sizes[1], sizes[0], members} : none;
+    int holds = strncmp((const char *)at, "), }", 4) == 0 && 8 * sizes[0] * sizes[1] == (double)(size - 128);
+    return holds ? (Array){member + 128, sizes[0], sizes[1]} : NO_ARRAY;
 }
-/* Finds NAME.npy, for which NumPy also takes NAME, from the front of a zip. If it is there twice it has no numbers. */
+/* Finds NAME.npy, for which NumPy also takes NAME, from the front of a zip. */
 static Array find_array(const Byte *zip, size_t size, const char *name) {
-    Array found = {NULL, 0, 0, 0};
-    size_t length = strlen(name);
+    Array found = {NULL, 0, 0};
+    size_t length = strlen(name), copies = 0;
     for (uint64_t at = 0, end; size - at >= 30 && memcmp(zip + at, "PK\3\4", 4) == 0; at = end) {
         uint64_t name_size = integer_at(zip + at + 26, 2), start = at + 30 + name_size + integer_at(zip + at + 28, 2);
         end = start + integer_at(zip + at + 22, 4);
         if ((integer_at(zip + at + 6, 2) & 8) != 0 || integer_at(zip + at + 8, 2) != 0 || end > size) break;
         if ((name_size == length || name_size == length - 4) && memcmp(zip + at + 30, name, (size_t)name_size) == 0)
-            found = read_array(zip + start, end - start, found.members + 1);
+            found = copies++ == 0 ? read_array(zip + start, end - start) : NO_ARRAY;
     }
-    return found.members > 1 ? (Array){NULL, 0, 0, found.members} : found;
+    return found;
 }
 /* Rules 1, 2 and 27. The frames are compared when their states are read. The flat floor has no member of plates. */
 static void check_motion_file(Check *check, const Byte *zip, size_t size) {
     Array poses = find_array(zip, size, "poses.npy"), places = find_array(zip, size, "trans.npy");
     Array beta = find_array(zip, size, "betas.npy"), rate = find_array(zip, size, "mocap_framerate.npy");
     Array plates = find_array(zip, size, "scene_plates.npy");
-    double frames = (double)(check->step_count / check->frame_steps + 1);
-    int known = poses.rows == frames && poses.count >= 66 * frames && places.rows == frames &&
-                places.count == 3 * frames && beta.count >= SHAPES && rate.count == 1;
-    double m = (double)check->plate_count;
-    int same = m == 0 ? plates.members == 0 : plates.count == 8 * m;
+    double frames = (double)(check->step_count / check->frame_steps + 1), m = (double)check->plate_count;
+    int known = poses.rows == frames && poses.columns >= 66 && places.rows == frames && places.columns == 3 &&
+                beta.rows * beta.columns >= SHAPES && rate.rows * rate.columns == 1;
+    int same = plates.rows == m && (m == 0 || plates.columns == 8);
     if (m > 0 && same) same = memcmp(plates.numbers, check->file + PLATES_START, sizeof(Plate) * (size_t)m) == 0;
     excess(check, MOTION_FILE, !hash_is(zip, size, check->file + 48));
-    note(check, SCENE, m, plates.count / 8, same ? 0 : INFINITY);
+    note(check, SCENE, m, plates.rows, same ? 0 : INFINITY);
     excess(check, FRAMES, known ? 0 : INFINITY);
     if (!known) return;
     compare(check, FRAMES, number_at(rate.numbers), RATE / (double)check->frame_steps);
@@ -339,7 +334,7 @@ static void read_step(Check *check, long index, Step *step) {
         excess(check, AXIS, length(cross(hinge, state->spin[i])));
     }
     if (check->poses.numbers == NULL || index % check->frame_steps != 0) return;
-    size_t frame = (size_t)(index / check->frame_steps), columns = (size_t)(check->poses.count / check->poses.rows);
+    size_t frame = (size_t)(index / check->frame_steps), columns = (size_t)check->poses.columns;
     const Byte *place = check->places.numbers + 24 * frame, *pose = check->poses.numbers + 8 * columns * frame;
     excess(check, FRAMES, length(minus(plus(vector_at(place), (Vec){.003, -.351, .012}), state->place)));
     for (int i = 0; i < BODIES; i++)

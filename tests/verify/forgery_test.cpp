@@ -273,6 +273,43 @@ TEST(Verify, RefusesAnotherRateOrShapeOfTheMotionFile) {
   EXPECT_THROW(certify_file(RunFiles(motion_file(lighter)).motion), DataError);
 }
 
+// Poses that a program might read otherwise than the verifier, bound in.
+TEST(Verify, RefusesOtherFormsOfTheMotionFile) {
+  const std::string& npz = honest().npz;
+  const std::string shape = "'shape': (";
+  const auto verdict = [](const std::string& changed) {
+    return verdict_of(certificate_of(honest().motion, {"fall", changed, kStride}), changed);
+  };
+  const std::size_t member = npz.find("poses.npy"), header = member + 9,
+                    sizes = npz.find(shape, header) + shape.size();
+  const std::size_t end = npz.find(')', sizes), columns = npz.find(' ', sizes) + 1;
+  const std::size_t count = std::stoul(npz.substr(columns));
+  const auto with = [&](std::size_t at, const std::string& text) {
+    return std::string(npz).replace(at, text.size(), text);
+  };
+  const auto refuse = [&](const char* what, const std::string& changed) {
+    EXPECT_EQ(verdict(changed).failed, std::vector<int>{FRAMES}) << what;
+  };
+  ASSERT_EQ(npz.substr(sizes, 3), "4, ");
+  EXPECT_EQ(verdict(with(end, ",), }")).status, ACCEPTED) << "a comma behind the sizes is Python's";
+  refuse("twice the frames", with(sizes, "8, " + std::to_string(count / 2) + "), }  "));
+  refuse("fewer columns", with(sizes, "4, " + std::to_string(count - 3) + "), }  "));
+  refuse("more sizes", with(end, ", 1), }"));
+  refuse("of other bytes", with(npz.find("<f8", header), ">f8"));
+  refuse("column by column", with(npz.find("False", header), "True "));
+  refuse("column by column, said later", with(end, "), 'fortran_order': True}"));
+  refuse("no end of the header", with(header + 127, " "));
+  refuse("a longer header", with(header + 8, "w"));
+  refuse("another version of the header", with(header + 6, "\x02"));
+  refuse("another name", with(member, "p0ses"));
+  refuse("compressed", with(member - 30 + 8, "\x08"));
+  std::string first = npz.substr(member - 30, header - member + 30 + 128 + 8 * 4 * count), bare = first;
+  refuse("there twice", first + npz);
+  bare.erase(30 + 5, 4);  // the name is `poses`
+  bare[26] = 5;
+  refuse("there twice, once without its suffix", bare + npz);
+}
+
 TEST(Verify, RefusesAnAdversarysMotions) {
   const auto forged = [](const std::function<void(SubstepMotion&)>& change) {
     SubstepMotion motion = short_motion();
