@@ -101,10 +101,7 @@ static int hash_is(const Byte *bytes, size_t size, const Byte *expected) {
 
 /* ---- The numbers of a file: section "Format". These structures are doubles in the order of its tables. ---- */
 typedef struct { Vec from, to; double radius; } Capsule;
-typedef struct { double xx, xy, xz, yy, yz, zz; } Inertia;
-typedef struct {
-    Vec offset; double mass; Vec centre; Inertia inertia; double kp, kd, armature, bound; Capsule capsule;
-} Body;
+typedef struct { Vec offset; double mass, along, across, kp, kd, armature, bound; Capsule capsule; } Body;
 typedef struct { double body; Vec centre; double radius; } Point;
 typedef struct { double constants[11], beta[SHAPES], claims[4]; Body bodies[BODIES]; Point points[POINTS]; } Header;
 typedef struct { double x, y, yaw, half_first, half_second, height, k, c; } Plate;
@@ -113,7 +110,7 @@ typedef struct {
     State now; Vec speed_after, spin_after[BODIES];
     Quaternion target[JOINTS]; Vec target_spin[JOINTS], torque[JOINTS], force[POINTS]; /* of joints: from joint 1 on */
 } Step;
-enum { NUMBERS_START = 80, PLATES_START = NUMBERS_START + sizeof(Header), HASH_SIZE = 32 };
+enum { NUMBERS_START = 64, PLATES_START = NUMBERS_START + sizeof(Header), HASH_SIZE = 32 };
 /* A member of the motion file: its numbers, row by row. NO_ARRAY: it has another form, or is there twice. */
 typedef struct { const Byte *numbers; double rows, columns; } Array;
 static const Array NO_ARRAY = {NULL, NAN, NAN};
@@ -128,21 +125,12 @@ typedef struct {
 
 /* "A broken file": says what is wrong, or NULL. */
 static const char *open_file(Check *check, const Byte *bytes, size_t size) {
-    if (size < 8 || memcmp(bytes, "MIMICERT", 8) != 0) return "not a certificate";
-    if (size < PLATES_START + sizeof(State) + HASH_SIZE) return "shorter than a certificate";
-    uint64_t start = integer_at(bytes + 12, 4), steps = integer_at(bytes + 24, 8), name = integer_at(bytes + 44, 4);
-    uint64_t frame_steps = integer_at(bytes + 32, 4), plates = integer_at(bytes + 36, 4);
-    if (integer_at(bytes + 8, 4) != 3) return "a version of the format other than 3";
-    if (integer_at(bytes + 16, 8) != size) return "size differs from the recorded one";
-    if (plates > MOST_PLATES) return "more than 64 plates";
-    if (integer_at(bytes + 40, 4) != POINTS) return "another number of contact points";
-    if (name < 1 || name > 4096) return "a name of no or too many bytes";
-    if (start != PLATES_START + sizeof(Plate) * plates + (name + 7) / 8 * 8)
-        return "start of the steps differs from the length of the header";
-    if (steps < 1 || steps > 1 << 24) return "no or too many steps";
+    if (size < PLATES_START || memcmp(bytes, "MIMICERT\4\0\0\0", 12) != 0) return "not a certificate of version 4";
+    uint64_t frame_steps = integer_at(bytes + 12, 4), steps = integer_at(bytes + 16, 8);
+    uint64_t plates = integer_at(bytes + 24, 8), start = PLATES_START + plates * sizeof(Plate);
+    if (steps < 1 || steps > 1 << 24 || plates > MOST_PLATES) return "no or too many steps, or too many plates";
     if (frame_steps < 1 || frame_steps > 240 || steps % frame_steps != 0) return "frames do not divide the steps";
-    if (size != start + steps * sizeof(Step) + sizeof(State) + HASH_SIZE)
-        return "size differs from the number of steps";
+    if (size != start + steps * sizeof(Step) + sizeof(State) + HASH_SIZE) return "size differs from that of its steps";
     if (!hash_is(bytes, size - HASH_SIZE, bytes + size - HASH_SIZE)) return "hash differs";
     check->file = bytes; check->steps = bytes + start; check->plate_count = (long)plates;
     check->step_count = (long)steps; check->frame_steps = (long)frame_steps;
@@ -206,31 +194,27 @@ static void set_skeleton(Body *bodies, const double *beta) {
 static Vec axis_of(Capsule c) { return minus(c.to, c.from); }
 static Vec on_axis(Capsule c, double share) { return plus(c.from, times(axis_of(c), share)); }
 static double volume(Capsule c) { return c.radius * c.radius * (length(axis_of(c)) + 4 * c.radius / 3); }
-/* "Inertia". */
-static Inertia inertia_of(Capsule capsule, double mass) {
-    double h = length(axis_of(capsule)), r = capsule.radius;
-    double cylinder = mass * h / (h + 4 * r / 3), balls = mass - cylinder;
-    double along = (cylinder / 2 + 2 * balls / 5) * r * r;
-    double across = cylinder * (h * h / 12 + r * r / 4) + balls * (2 * r * r / 5 + h * h / 4 + 3 * h * r / 8);
-    Vec u = times(axis_of(capsule), 1 / h), v = times(u, along - across);
-    return (Inertia){across + v.x * u.x, v.x * u.y, v.x * u.z, across + v.y * u.y, v.y * u.z, across + v.z * u.z};
-}
-/* The bodies of a shape: "Mass", "Centre of mass" and "Joints". */
+/* The bodies of a shape: "Mass", "Inertia" and "Joints". */
 static void build_bodies(Body *bodies, const double *beta) {
     Body mean[BODIES];
     double whole = 0;
     set_skeleton(mean, (const double[SHAPES]){0});
     set_skeleton(bodies, beta);
     for (int i = 0; i < BODIES; i++) {
-        bodies[i].mass = 70 * ROWS[LEFT_OF[i]].share * volume(bodies[i].capsule) / volume(mean[i].capsule);
-        whole += bodies[i].mass;
+        Body *body = &bodies[i];
+        double h = length(axis_of(body->capsule)), r = body->capsule.radius;
+        body->mass = 70 * ROWS[LEFT_OF[i]].share * volume(body->capsule) / volume(mean[i].capsule);
+        double cylinder = body->mass * h / (h + 4 * r / 3), balls = body->mass - cylinder;
+        body->along = (cylinder / 2 + 2 * balls / 5) * r * r;
+        body->across = cylinder * (h * h / 12 + r * r / 4) + balls * (2 * r * r / 5 + h * h / 4 + 3 * h * r / 8);
+        whole += body->mass;
     }
     for (int i = 0; i < BODIES; i++) {
         const Row *row = &ROWS[LEFT_OF[i]];
-        Body *body = &bodies[i];
-        double kp = row->kp * whole / 70, bound = row->bound * whole / 70;
-        *body = (Body){body->offset, body->mass, on_axis(body->capsule, .5), inertia_of(body->capsule, body->mass),
-                       kp, kp / 10, row->armature, bound, body->capsule};
+        bodies[i].kp = row->kp * whole / 70;
+        bodies[i].kd = bodies[i].kp / 10;
+        bodies[i].armature = row->armature;
+        bodies[i].bound = row->bound * whole / 70;
     }
 }
 /* "Contact points": of the left foot and its instep, of their mirror images, and spheres on the axes of capsules. */
@@ -310,7 +294,7 @@ static void check_motion_file(Check *check, const Byte *zip, size_t size) {
                 beta.rows * beta.columns >= SHAPES && rate.rows * rate.columns == 1;
     int same = plates.rows == m && (m == 0 || plates.columns == 8);
     if (m > 0 && same) same = memcmp(plates.numbers, check->file + PLATES_START, sizeof(Plate) * (size_t)m) == 0;
-    excess(check, MOTION_FILE, !hash_is(zip, size, check->file + 48));
+    excess(check, MOTION_FILE, !hash_is(zip, size, check->file + 32));
     note(check, SCENE, m, plates.rows, same ? 0 : INFINITY);
     excess(check, FRAMES, known ? 0 : INFINITY);
     if (!known) return;
@@ -451,19 +435,14 @@ static void add_self_contact(Motion *one, Motion *two) {
     carry(one, place, times(normal, -push), NONE);
     carry(two, place, times(normal, push), NONE);
 }
-/* The inertia of a body that has turned, times a vector. */
-static Vec inertia_times(Inertia i, Quaternion turn, Vec vector) {
-    Vec a = rotated(inverse(turn), vector);
-    return rotated(turn, (Vec){i.xx * a.x + i.xy * a.y + i.xz * a.z, i.xy * a.x + i.yy * a.y + i.yz * a.z,
-                                  i.xz * a.x + i.yz * a.y + i.zz * a.z});
-}
-/* "Newton, Euler": the joint carries what a body needs for its motion, in spite of gravity. */
+/* "Newton, Euler": the joint carries what a body needs for its motion, in spite of gravity. The inertia times a is
+ * across a + (along - across) (u . a) u, with u of length 1 along the capsule's axis. */
 static void add_inertia(const Body *body, Motion *motion) {
-    Motion centre = point_at(motion, in_world(motion, body->centre));
-    Vec change = inertia_times(body->inertia, motion->turn, motion->spin_rate);
-    Vec spinning = inertia_times(body->inertia, motion->turn, motion->spin);
-    Vec force = times(plus(centre.acceleration, (Vec){0, 0, GRAVITY}), body->mass);
-    carry(motion, centre.place, force, plus(change, cross(motion->spin, spinning)));
+    Motion centre = point_at(motion, on_axis(motion->capsule, .5));
+    Vec u = times(axis_of(motion->capsule), 1 / length(axis_of(motion->capsule)));
+    Vec along = plus(times(u, dot(u, motion->spin_rate)), times(cross(motion->spin, u), dot(u, motion->spin)));
+    Vec moment = plus(times(motion->spin_rate, body->across), times(along, body->along - body->across));
+    carry(motion, centre.place, times(plus(centre.acceleration, (Vec){0, 0, GRAVITY}), body->mass), moment);
 }
 /* "Range": the torque on a joint that is beyond its range. On the right side it is the mirror image. */
 static Vec range_torque(int i, Quaternion turn, Vec spin_after) {
