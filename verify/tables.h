@@ -1,6 +1,4 @@
 /* The numbers of docs/certificate.md: "Constants", "Body", the pairs of "Self contact", and "Rules". */
-#ifndef MIMICX_VERIFY_TABLES_H
-#define MIMICX_VERIFY_TABLES_H
 #define COUNT(table) ((int)(sizeof(table) / sizeof(table)[0]))
 
 enum { BODIES = 22, JOINTS = 21, POINTS = 37, SHAPES = 10, MOST_PLATES = 64 };
@@ -13,29 +11,27 @@ static const double PI = 3.14159265358979323846, RATE = 240, GRAVITY = 9.81, FLO
 /* "Format": the least and the greatest value of each number of a plate. */
 static const double PLATE_RANGE[][2] = {
     {-1e4, 1e4}, {-1e4, 1e4}, {-7, 7}, {0.01, 1000}, {0.01, 1000}, {0.01, 10}, {2e3, 1e7}, {1, 1e6}};
-/* "Body": the parent of each body, and the left body of which it is the mirror image (itself if of none). */
-static const int PARENT[BODIES] = {-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
+/* "Body": the parent of each body, and the left body of which it is the mirror image. Itself: it has none. */
+static const int PARENT[BODIES] = {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
 static const int LEFT_OF[BODIES] = {0, 1, 1, 3, 4, 4, 6, 7, 7, 9, 10, 10, 12, 13, 13, 15, 16, 16, 18, 18, 20, 20};
 /* "Body": the rows of its table, by body. A hinge has an axis, of any sign; others have none. */
 typedef enum { TORSO, HEAD, HIP, LEG, FOOT, SHOULDER, ARM } Part;
-typedef struct {
-    Vec offset; double share, kp, bound, armature; Vec range_centre, range_half; Part part; Vec hinge;
-} Row;
+typedef struct { Vec offset; double share, kp, bound, armature; Vec range_centre, range_half, hinge; Part part; } Row;
 static const Row ROWS[BODIES] = {
-    [0] = {{0, 0, 0}, .118, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, TORSO, {0, 0, 0}},
-    [3] = {{0, .108, -.026}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, TORSO, {0, 0, 0}},
-    [6] = {{0, .136, .001}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, TORSO, {0, 0, 0}},
-    [9] = {{0, .054, .026}, .112, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, TORSO, {0, 0, 0}},
-    [12] = {{0, .214, -.042}, .012, 150, 50, .01, {0, 0, 0}, {55, 65, 50}, HEAD, {0, 0, 0}},
-    [15] = {{0, .066, .050}, .056, 100, 40, .01, {0, 0, 0}, {55, 65, 50}, HEAD, {0, 0, 0}},
-    [1] = {{.066, -.088, -.006}, .1446, 500, 250, .02, {-45, 0, 10}, {95, 75, 75}, HIP, {0, 0, 0}},
-    [4] = {{.040, -.382, -.004}, .0457, 500, 220, .02, {75, 0, 0}, {82, 82, 82}, LEG, {1, 0, 0}},
-    [7] = {{-.012, -.402, -.040}, .0113, 400, 200, .02, {12, 0, 0}, {62, 60, 50}, LEG, {0, 0, 0}},
-    [10] = {{.024, -.056, .122}, .0022, 100, 40, .01, {-15, 0, 0}, {65, 30, 30}, FOOT, {0, 0, 0}},
-    [13] = {{.074, .118, -.034}, .0204, 500, 130, .02, {0, 0, 5}, {45, 45, 45}, SHOULDER, {0, 0, 0}},
-    [16] = {{.096, .034, -.010}, .0263, 400, 120, .02, {0, -25, -10}, {130, 125, 130}, SHOULDER, {0, 0, 0}},
-    [18] = {{.258, -.014, -.026}, .0150, 300, 80, .02, {0, -77, 0}, {85, 85, 85}, ARM, {0, 1, 0}},
-    [20] = {{.250, .008, -.001}, .0035, 80, 20, .01, {0, 0, 0}, {140, 90, 95}, ARM, {0, 0, 0}}};
+    [0] = {{0, 0, 0}, .118, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, TORSO},
+    [3] = {{0, .108, -.026}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, {0, 0, 0}, TORSO},
+    [6] = {{0, .136, .001}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, {0, 0, 0}, TORSO},
+    [9] = {{0, .054, .026}, .112, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, {0, 0, 0}, TORSO},
+    [12] = {{0, .214, -.042}, .012, 150, 50, .01, {0, 0, 0}, {55, 65, 50}, {0, 0, 0}, HEAD},
+    [15] = {{0, .066, .050}, .056, 100, 40, .01, {0, 0, 0}, {55, 65, 50}, {0, 0, 0}, HEAD},
+    [1] = {{.066, -.088, -.006}, .1446, 500, 250, .02, {-45, 0, 10}, {95, 75, 75}, {0, 0, 0}, HIP},
+    [4] = {{.040, -.382, -.004}, .0457, 500, 220, .02, {75, 0, 0}, {82, 82, 82}, {1, 0, 0}, LEG},
+    [7] = {{-.012, -.402, -.040}, .0113, 400, 200, .02, {12, 0, 0}, {62, 60, 50}, {0, 0, 0}, LEG},
+    [10] = {{.024, -.056, .122}, .0022, 100, 40, .01, {-15, 0, 0}, {65, 30, 30}, {0, 0, 0}, FOOT},
+    [13] = {{.074, .118, -.034}, .0204, 500, 130, .02, {0, 0, 5}, {45, 45, 45}, {0, 0, 0}, SHOULDER},
+    [16] = {{.096, .034, -.010}, .0263, 400, 120, .02, {0, -25, -10}, {130, 125, 130}, {0, 0, 0}, SHOULDER},
+    [18] = {{.258, -.014, -.026}, .0150, 300, 80, .02, {0, -77, 0}, {85, 85, 85}, {0, 1, 0}, ARM},
+    [20] = {{.250, .008, -.001}, .0035, 80, 20, .01, {0, 0, 0}, {140, 90, 95}, {0, 0, 0}, ARM}};
 /* "Capsules" of the trunk and along bones: ends and radius, and the child that the bone leads to, 0 if it is none. */
 static const struct { int body, child; Vec from, to; double radius; } CAPSULES[] = {
     {0, 0, {-.062, -.02, -.018}, {.062, -.02, -.018}, .105}, {3, 0, {-.050, .04, .022}, {.050, .04, .022}, .105},
@@ -47,13 +43,11 @@ static const struct { int body, child; Vec from, to; double radius; } CAPSULES[]
 static const struct { int body; double share; } SPHERES[] = {
     {0, 0}, {0, 1}, {9, 0}, {9, 1}, {15, 0}, {15, 1}, {20, 0}, {20, 1}, {21, 0}, {21, 1}, {3, .5}, {6, .5}, {12, .5},
     {1, .5}, {2, .5}, {4, 0}, {5, 0}, {18, 0}, {19, 0}, {13, .8}, {14, .8}, {16, .3}, {17, .3}};
-/* "Self contact": the first and the second body of each pair. */
-static const int PAIRS[][2] = {
-    {18, 0}, {18, 3}, {18, 6}, {18, 9}, {18, 15}, {18, 1}, {18, 2}, {19, 0}, {19, 3}, {19, 6}, {19, 9}, {19, 15},
-    {19, 1}, {19, 2}, {20, 0}, {20, 3}, {20, 6}, {20, 9}, {20, 15}, {20, 1}, {20, 2}, {21, 0}, {21, 3}, {21, 6},
-    {21, 9}, {21, 15}, {21, 1}, {21, 2}, {20, 4}, {20, 5}, {20, 7}, {20, 8}, {21, 4}, {21, 5}, {21, 7}, {21, 8},
-    {20, 21}, {20, 19}, {18, 21}, {18, 19}, {1, 2}, {1, 5}, {4, 2}, {4, 5}, {7, 8}, {7, 5}, {4, 8}, {10, 8},
-    {7, 11}, {10, 11}};
+/* "Self contact": the first bodies of pairs, and the second bodies of each. */
+static const struct { int first, count, second[13]; } PAIRS[] = {
+    {18, 9, {0, 3, 6, 9, 15, 1, 2, 19, 21}}, {20, 13, {0, 3, 6, 9, 15, 1, 2, 4, 5, 7, 8, 19, 21}},
+    {19, 7, {0, 3, 6, 9, 15, 1, 2}}, {21, 11, {0, 3, 6, 9, 15, 1, 2, 4, 5, 7, 8}},
+    {1, 2, {2, 5}}, {4, 3, {2, 5, 8}}, {7, 3, {5, 8, 11}}, {10, 2, {8, 11}}};
 /* "Rules": their names, units and tolerances. */
 static const struct { const char *name, *unit; double tolerance; } RULE_TABLE[] = {
     {"motion file has the bound hash", "", 0}, {"rate, shape and frames of the motion file", "m, rad", 1e-5},
@@ -67,6 +61,5 @@ static const struct { const char *name, *unit; double tolerance; } RULE_TABLE[] 
     {"bounds of the torques", "", 1e-9}, {"no force on a point in the air", "N", 1e-9},
     {"ground's push by its law, or no force", "N", 1e-5}, {"friction against the slip", "N", 1e-5},
     {"friction beyond its cone, of the push", "", 0.1}, {"pull of the ground, of the push", "", 0.1},
-    {"push that is absent, of the push", "", 0.2}, {"deepest point", "m", 0.05}, {"claims", "", 1e-6},
+    {"push that is absent, of the push", "", 0.2}, {"deepest point in the floor", "m", 0.05}, {"claims", "", 1e-6},
     {"plates of the motion file, in their ranges", "", 0}};
-#endif

@@ -2,9 +2,6 @@
 #ifndef MIMICX_VERIFY_H
 #define MIMICX_VERIFY_H
 #include <stddef.h>
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /* Rules, in the order of docs/certificate.md. */
 enum { MOTION_FILE, FRAMES, CONSTANT, SHAPE, FINITE, UNIT, AXIS, POSITION, ROTATION, VELOCITY, SPIN, MEAN_VELOCITY,
@@ -21,7 +18,4 @@ typedef struct { const char *name, *unit; double tolerance, claimed, found, diff
 int verify_bytes(const unsigned char *file, size_t size, const unsigned char *motion, size_t motion_size, Rule *rules,
                  const char **wrong);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -1,13 +1,15 @@
 // Target: the verifier of certificates, which reads what anybody may send. The hash is made again, or nothing
-// behind it would be read. Input: a certificate, then a motion file; the length of the certificate stands in
-// its bytes 16 to 23.
+// behind it would be read. Input: a certificate, then a motion file; the length of the certificate follows
+// from its numbers of steps and of plates.
 #include "audit/certificate/certificate.h"
 #include "audit/certificate/sha256.h"
 #include "audit/thrown.h"
 #include "fuzz/driver.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
+extern "C" {
 #include "verify.h"
+}
 
 namespace mimicx::fuzz {
 
@@ -24,7 +26,7 @@ std::vector<std::string> seeds() {
     const TemporaryFolder folder;
     motion::write_clip(folder.path / "m.npz", clip);
     const std::string npz = read_file(folder.path / "m.npz");
-    const std::string certificate = audit::certificate_of(motion, {"fuzz", npz, 1});
+    const std::string certificate = audit::certificate_of(motion, {npz, 1});
     found.insert(found.end(), {certificate, certificate + npz});
   }
   return found;
@@ -32,9 +34,13 @@ std::vector<std::string> seeds() {
 
 void feed(const std::string& bytes) {
   std::string file = bytes, npz;
-  std::uint64_t length = 0;
-  for (std::size_t i = 8; i-- > 0 && bytes.size() >= 24;)
-    length = length << 8 | static_cast<unsigned char>(bytes[16 + i]);
+  const auto integer_at = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 8; i-- > 0 && bytes.size() >= at + 8;)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+  };
+  const std::uint64_t length = 4736 + 64 * integer_at(24) + 4400 * integer_at(16) + 1280 + 32;
   if (length >= 64 && length <= bytes.size()) {
     file = bytes.substr(0, length);
     npz = bytes.substr(length);

@@ -15,13 +15,15 @@
 #include "physics/lanes.h"
 #include "physics/step.h"
 #include "rl/tracking/tracking_clip.h"
+extern "C" {
 #include "verify.h"
+}
 
 namespace mimicx::audit {
 namespace {
 
-constexpr std::size_t kHead = 80, kPlates = 5984, kPlate = 64, kRecord = 550, kState = 160, kNext = 69,
-                      kBody = 24;
+constexpr std::size_t kHead = 64, kPlates = 4736, kPlate = 64, kRecord = 550, kState = 160, kNext = 69,
+                      kBody = 17;
 constexpr std::size_t kForces = kState + kNext + 147 + 63;
 constexpr std::size_t kSteps = 24, kStride = 8;
 
@@ -69,7 +71,7 @@ void rehash(std::string& file) {
   file.replace(file.size() - 32, 32, sha256({file.data(), file.size() - 32}));
 }
 std::size_t start_of(const std::string& file) {
-  return static_cast<unsigned char>(file[12]) + 256U * static_cast<unsigned char>(file[13]);
+  return kPlates + kPlate * static_cast<unsigned char>(file[24]);
 }
 std::size_t at_step(const std::string& file, std::size_t step, std::size_t column) {
   return start_of(file) + 8 * (step * kRecord + column);
@@ -120,7 +122,7 @@ struct Honest {
   explicit Honest(const Scene& scene) : motion(short_motion(300, scene)) {}
   SubstepMotion motion;
   std::string npz = motion_file(motion);
-  std::string file = certificate_of(motion, {"fall", npz, kStride});
+  std::string file = certificate_of(motion, {npz, kStride});
 };
 const Honest& honest() {
   static const Honest certificate({});
@@ -162,7 +164,7 @@ TEST(Verify, AcceptsHonestFallsWholeAndTheirMotions) {
   const Verdict verdict = verdict_of(honest().file, honest().npz);
   EXPECT_EQ(verdict.status, ACCEPTED) << verdict.reasons();
   for (const Scene& scene : {Scene{}, boxes()}) {
-    const Verdict whole = verdict_of(certificate_of(Thrown(240.0, 0.08, scene).steps(), {"whole", "", 8}));
+    const Verdict whole = verdict_of(certificate_of(Thrown(240.0, 0.08, scene).steps(), {"", 8}));
     EXPECT_EQ(whole.status, ACCEPTED) << whole.reasons();
   }
 }
@@ -186,7 +188,7 @@ TEST(Verify, RefusesAnotherScene) {
   const auto with = [&](const std::function<void(Scene&)>& change) {
     SubstepMotion motion = sound.motion;
     change(motion.scene);
-    std::string head = certificate_of(motion, {"fall", sound.npz, kStride});
+    std::string head = certificate_of(motion, {sound.npz, kStride});
     const std::size_t start = start_of(head);  // the steps are the honest ones
     head.replace(start, std::string::npos, sound.file.substr(start_of(sound.file)));
     std::copy_n(sound.file.begin() + kHead + 8 * 21, 4 * 8, head.begin() + kHead + 8 * 21);  // its claims
@@ -254,14 +256,14 @@ TEST(Verify, RefusesAnotherMotionFile) {
   const Verdict swapped = verdict_of(honest().file, other);
   EXPECT_TRUE(swapped.names(MOTION_FILE)) << swapped.reasons();
   // Its hash bound in: the frames give it away.
-  const Verdict bound = verdict_of(certificate_of(honest().motion, {"fall", other, kStride}), other);
+  const Verdict bound = verdict_of(certificate_of(honest().motion, {other, kStride}), other);
   EXPECT_FALSE(bound.names(MOTION_FILE));
   EXPECT_TRUE(bound.names(FRAMES)) << bound.reasons();
 }
 
 TEST(Verify, RefusesAnotherRateOrShapeOfTheMotionFile) {
   const auto bound = [](const std::string& npz) {
-    return verdict_of(certificate_of(honest().motion, {"fall", npz, kStride}), npz);
+    return verdict_of(certificate_of(honest().motion, {npz, kStride}), npz);
   };
   EXPECT_EQ(bound(honest().npz).status, ACCEPTED);
   EXPECT_EQ(bound(motion_file(honest().motion, 60.0)).failed, std::vector<int>{FRAMES});
@@ -271,11 +273,48 @@ TEST(Verify, RefusesAnotherRateOrShapeOfTheMotionFile) {
   EXPECT_THROW(certify_file(RunFiles(motion_file(lighter)).motion), DataError);
 }
 
+// Poses that a program might read otherwise than the verifier, bound in.
+TEST(Verify, RefusesOtherFormsOfTheMotionFile) {
+  const std::string& npz = honest().npz;
+  const std::string shape = "'shape': (";
+  const auto verdict = [](const std::string& changed) {
+    return verdict_of(certificate_of(honest().motion, {changed, kStride}), changed);
+  };
+  const std::size_t member = npz.find("poses.npy"), header = member + 9,
+                    sizes = npz.find(shape, header) + shape.size();
+  const std::size_t end = npz.find(')', sizes), columns = npz.find(' ', sizes) + 1;
+  const std::size_t count = std::stoul(npz.substr(columns));
+  const auto with = [&](std::size_t at, const std::string& text) {
+    return std::string(npz).replace(at, text.size(), text);
+  };
+  const auto refuse = [&](const char* what, const std::string& changed) {
+    EXPECT_EQ(verdict(changed).failed, std::vector<int>{FRAMES}) << what;
+  };
+  ASSERT_EQ(npz.substr(sizes, 3), "4, ");
+  EXPECT_EQ(verdict(with(end, ",), }")).status, ACCEPTED) << "a comma behind the sizes is Python's";
+  refuse("twice the frames", with(sizes, "8, " + std::to_string(count / 2) + "), }  "));
+  refuse("fewer columns", with(sizes, "4, " + std::to_string(count - 3) + "), }  "));
+  refuse("more sizes", with(end, ", 1), }"));
+  refuse("of other bytes", with(npz.find("<f8", header), ">f8"));
+  refuse("column by column", with(npz.find("False", header), "True "));
+  refuse("column by column, said later", with(end, "), 'fortran_order': True}"));
+  refuse("no end of the header", with(header + 127, " "));
+  refuse("a longer header", with(header + 8, "w"));
+  refuse("another version of the header", with(header + 6, "\x02"));
+  refuse("another name", with(member, "p0ses"));
+  refuse("compressed", with(member - 30 + 8, "\x08"));
+  std::string first = npz.substr(member - 30, header - member + 30 + 128 + 8 * 4 * count), bare = first;
+  refuse("there twice", first + npz);
+  bare.erase(30 + 5, 4);  // the name is `poses`
+  bare[26] = 5;
+  refuse("there twice, once without its suffix", bare + npz);
+}
+
 TEST(Verify, RefusesAnAdversarysMotions) {
   const auto forged = [](const std::function<void(SubstepMotion&)>& change) {
     SubstepMotion motion = short_motion();
     change(motion);
-    return verdict_of(certificate_of(motion, {"forged", "", kStride}));
+    return verdict_of(certificate_of(motion, {"", kStride}));
   };
   const Verdict swapped = forged([](SubstepMotion& m) { std::swap(m.steps[5], m.steps[14]); });
   EXPECT_TRUE(swapped.names(VELOCITY) && swapped.names(ROTATION)) << swapped.reasons();
@@ -435,48 +474,41 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
     Random random(47, {static_cast<std::uint64_t>(k)});
     std::string file = sound, wanted;
     const auto size = static_cast<double>(sound.size());
-    switch (k % 10) {
+    switch (k % 8) {
       case 0:
-        file.resize(8 + static_cast<std::size_t>(random.uniform() * (size - 9)));
-        wanted = file.size() < 7296 ? "shorter than a certificate" : "size differs from the recorded one";
+        file.resize(static_cast<std::size_t>(random.uniform() * (size - 1)));
+        wanted =
+            file.size() < kPlates ? "not a certificate of version 4" : "size differs from that of its steps";
         break;
       case 1:
-        file[80 + static_cast<std::size_t>(random.uniform() * (size - 80))] ^= 1 << (k / 10 % 8);
+        file[kHead + static_cast<std::size_t>(random.uniform() * (size - kHead))] ^= 1 << (k / 8 % 8);
         wanted = "hash differs";
         break;
       case 2:
         file[static_cast<std::size_t>(random.uniform() * 8)] ^= 4;
-        wanted = "not a certificate";
+        wanted = "not a certificate of version 4";
         break;
       case 3:
-        set_integer(file, 8, 3 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "a version of the format other than 3";
+        set_integer(file, 8, 5 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "not a certificate of version 4";
         break;
       case 4:
         file += std::string(1 + static_cast<std::size_t>(random.uniform() * 100), 'x');
-        wanted = "size differs from the recorded one";
+        wanted = "size differs from that of its steps";
         break;
       case 5:
-        set_integer(file, 36, 65 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "more than 64 plates";
+        set_integer(file, 24, 65 + static_cast<std::uint64_t>(random.uniform() * 1e18), 8);
+        wanted = "no or too many steps, or too many plates";
         break;
       case 6:
-        set_integer(file, 40, 38 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "another number of contact points";
-        break;
-      case 7:
-        set_integer(file, 44, 4097 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "a name of no or too many bytes";
-        break;
-      case 8:
-        set_integer(file, 24, 1 + (1U << 24) + static_cast<std::uint64_t>(random.uniform() * 1e18), 8);
-        wanted = "no or too many steps";
+        set_integer(file, 16, 1 + (1U << 24) + static_cast<std::uint64_t>(random.uniform() * 1e18), 8);
+        wanted = "no or too many steps, or too many plates";
         break;
       default:
-        set_integer(file, 12, 4294967295U - static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "start of the steps differs from the length of the header";
+        set_integer(file, 12, 241 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "frames do not divide the steps";
     }
-    if (k % 10 > 2 && k % 10 != 4) rehash(file);
+    if (k % 8 > 2 && k % 8 != 4) rehash(file);
     const Verdict verdict = verdict_of(file);
     EXPECT_EQ(verdict.status, BROKEN) << k;
     EXPECT_EQ(verdict.wrong, wanted) << k;
@@ -533,7 +565,7 @@ TEST(Certificate, TakesTheContactsOfTheSimulator) {
       physics::step(model, physics::in_all_lanes<Packed>(target), next, *data);
       motion.last = rl::tracking::frame_of_state(physics::lane_of(next, 0));
       ++seen[data->ground_count > 0 ? 1 : 0];
-      const Verdict verdict = verdict_of(certificate_of(motion, {"touch", "", 1}));
+      const Verdict verdict = verdict_of(certificate_of(motion, {"", 1}));
       for (const int rule : {VELOCITY, SPIN, FORCE, MOMENT, JOINT, AIR, NORMAL, SIDEWAYS, CLAIM})
         EXPECT_FALSE(verdict.names(rule)) << k << ":" << verdict.reasons();
     }
@@ -545,7 +577,7 @@ TEST(Certificate, TakesTheContactsOfTheSimulator) {
 TEST(Certificate, RefusesOtherSettings) {
   SubstepMotion motion = short_motion();
   motion.simulation.friction = 0.8;
-  EXPECT_THROW(certificate_of(motion, {"m", "", kStride}), std::invalid_argument);
+  EXPECT_THROW(certificate_of(motion, {"", kStride}), std::invalid_argument);
 }
 
 }  // namespace

@@ -22,13 +22,13 @@ namespace mimicx::audit {
 namespace {
 
 constexpr std::string_view kMagic = "MIMICERT";
-constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kFixed = 80, kHash = 32;
+constexpr std::uint32_t kVersion = 4;
+constexpr std::size_t kFixed = 64, kHash = 32;
 constexpr double kEdge = 1e-6;  ///< of touching, within which float32 decides, m
 constexpr std::size_t kPoints = 37, kPlateNumbers = 8;
 constexpr std::size_t kState = 2 * 3 + 7 * kBodies, kNext = 3 + 3 * kBodies, kTargets = 7 * kJoints;
 constexpr std::size_t kRecord = kState + kNext + kTargets + 3 * kJoints + 3 * kPoints;
-constexpr std::size_t kHead = 11 + kBetas + 4 + 24 * kBodies + 5 * kPoints;
+constexpr std::size_t kHead = 11 + kBetas + 4 + 17 * kBodies + 5 * kPoints;
 
 void append_integer(std::string& bytes, std::uint64_t value, int size) {
   for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i);
@@ -187,13 +187,11 @@ std::array<double, 11> constants_of(const physics::SimulationConfig& o) {
 
 void add_body(const Character& c, Numbers& out) {
   for (int i = 0; i < kBodies; ++i) {
-    const Matrix3d& I = c.inertia_B[i];
     const JointParameters& j = c.joint[i];
+    const Vector3d axis = (c.capsule[i].b_B - c.capsule[i].a_B).normalized();
+    const double along = axis.dot(c.inertia_B[i] * axis), across = 0.5 * (c.inertia_B[i].trace() - along);
     out.add(c.joint_offset[i]);
-    out.add(c.mass[i]);
-    out.add(c.com_B[i]);
-    for (const double v : {I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2)}) out.add(v);
-    for (const double v : {j.kp, j.kd, j.armature, j.torque_limit}) out.add(v);
+    for (const double v : {c.mass[i], along, across, j.kp, j.kd, j.armature, j.torque_limit}) out.add(v);
     out.add(c.capsule[i].a_B);
     out.add(c.capsule[i].b_B);
     out.add(c.capsule[i].radius);
@@ -254,20 +252,13 @@ std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& a
   add_body(motion.character, head);
   add_plates(motion.scene, head);
 
-  const std::size_t start = kFixed + 8 * head.values.size() + (about.name.size() + 7) / 8 * 8;
   std::string bytes(kMagic);
   append_integer(bytes, kVersion, 4);
-  append_integer(bytes, start, 4);
-  append_integer(bytes, start + 8 * steps.values.size() + kHash, 8);
-  append_integer(bytes, motion.steps.size(), 8);
   append_integer(bytes, static_cast<std::uint64_t>(about.steps_per_frame), 4);
-  append_integer(bytes, static_cast<std::uint64_t>(motion.scene.plates.count()), 4);
-  append_integer(bytes, kPoints, 4);
-  append_integer(bytes, about.name.size(), 4);
+  append_integer(bytes, motion.steps.size(), 8);
+  append_integer(bytes, static_cast<std::uint64_t>(motion.scene.plates.count()), 8);
   bytes += sha256(about.motion_bytes);
   for (const double v : head.values) append_number(bytes, v);
-  bytes += about.name;
-  bytes.resize(start, '\0');
   for (const double v : steps.values) append_number(bytes, v);
   return bytes + sha256(bytes);
 }
@@ -296,21 +287,20 @@ std::string certify_file(const std::filesystem::path& path) {
   if (const double gap = frame_gap(clip, motion, stride); !(gap < 1e-5))
     throw DataError(path.string(), "poses", "the states of its physics steps",
                     "poses " + std::to_string(gap) + " m or rad from them");
-  return certificate_of(motion, {name, bytes, stride});
+  return certificate_of(motion, {bytes, stride});
 }
 
 CertificateReplay replay_certificate(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const auto refuse = [&](const std::string& found) {
-    throw DataError(path.string(), "", "a certificate of version 3", found);
+    throw DataError(path.string(), "", "a certificate of version 4", found);
   };
   if (bytes.size() < kFixed + 8 * (kHead + kState) + kHash || !bytes.starts_with(kMagic))
     refuse("another file");
   if (integer_at(bytes, 8, 4) != kVersion) refuse("another version");
-  const std::uint64_t start = integer_at(bytes, 12, 4), count = integer_at(bytes, 24, 8);
-  const std::uint64_t plates = integer_at(bytes, 36, 4);
+  const std::uint64_t count = integer_at(bytes, 16, 8), plates = integer_at(bytes, 24, 8);
+  const std::uint64_t start = kFixed + 8 * (kHead + kPlateNumbers * plates);
   if (count < 1 || count > (1U << 24) || plates > kMaxPlates ||
-      start != kFixed + 8 * (kHead + kPlateNumbers * plates) + (integer_at(bytes, 44, 4) + 7) / 8 * 8 ||
       bytes.size() != start + 8 * (count * kRecord + kState) + kHash)
     refuse("a file of another length");
   if (sha256(std::string_view(bytes).substr(0, bytes.size() - kHash)) != bytes.substr(bytes.size() - kHash))

@@ -15,7 +15,6 @@ namespace mimicx::audit {
 
 /// What a certificate binds its steps to.
 struct CertifiedMotion {
-  std::string name;
   std::string motion_bytes;  ///< of motions/NAME.npz
   int steps_per_frame = 8;
 };
@@ -35,7 +34,7 @@ struct CertificateReplay {
   long first_state = -1;  ///< the first step whose next state has other bits; −1: none
   long first_step = -1;   ///< the first step with other velocities, torques or forces
 };
-/// @throws DataError if the file is no certificate of version 3
+/// @throws DataError if the file is no certificate of version 4
 CertificateReplay replay_certificate(const std::filesystem::path& path);
 
 }  // namespace mimicx::audit
