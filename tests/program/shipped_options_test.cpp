@@ -114,7 +114,7 @@ TEST(ShippedOptions, AreThoseOfTheDefaultRadius) {
 
 TEST(ShippedOptions, FineTuningReducesTheErrorOfAMotionThatTheyFollow) {
   const record::SequenceEntry tuned =
-      adapted("squat_1", 90, pipeline::options::read_options(kOptions), 40'000);
+      adapted("squat_1", 174, pipeline::options::read_options(kOptions), 40'000);
   EXPECT_TRUE(tuned.ok_before);
   EXPECT_TRUE(tuned.ok);
   EXPECT_LT(value_of(tuned.metrics, "MPJPE"), 0.85 * value_of(tuned.metrics_before, "MPJPE"));
