@@ -79,7 +79,7 @@ TEST(Fit, FindsAnErrorOfTheCameraTilt) {
 /// noise shares none of the fit's assumptions, and no body's shape is told exactly; MPJPE falls by three
 /// tenths at least; under a model that shared them it fell by four tenths in every draw.
 TEST(Fit, MovesNoisyEstimatesCloserToTheTruth) {
-  const motion::Clip truth = truth_of("walk");
+  const motion::Clip truth = synthetic_clip("walk", 5, 60);
   for (const char* preset : {"gvhmr", "vibe"})
     for (const motion::KeypointSet set : {motion::KeypointSet::kJoints22, motion::KeypointSet::kCoco17}) {
       double before = 0.0, after = 0.0, pa_before = 0.0, pa_after = 0.0;

@@ -21,7 +21,7 @@
 #include "pipeline/options/option_set.h"
 #include "record/feasibility_file.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::archives {
 namespace {
 
 /// The bytes that `write(path)` writes.
@@ -142,4 +142,6 @@ std::vector<std::string> seeds() { return seeds_of(archives()); }
 
 void feed(const std::string& bytes) { feed_member(archives(), bytes); }
 
-}  // namespace mimicx::fuzz
+const Target target("archives", seeds, feed);
+
+}  // namespace mimicx::fuzz::archives

@@ -4,7 +4,7 @@
 #include "import/bvh_write.h"
 #include "import/motion_file.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::bvh {
 namespace {
 
 /// A small clip of the 22 bodies, which also exercises names, calibration and solving.
@@ -50,4 +50,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("bvh", seeds, feed);
+
+}  // namespace mimicx::fuzz::bvh

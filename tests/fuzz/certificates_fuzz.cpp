@@ -11,7 +11,7 @@ extern "C" {
 #include "verify.h"
 }
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::certificates {
 
 std::vector<std::string> seeds() {
   std::vector<std::string> found;
@@ -52,4 +52,6 @@ void feed(const std::string& bytes) {
   verify_bytes(at(file), file.size(), npz.empty() ? nullptr : at(npz), npz.size(), rules.data(), &wrong);
 }
 
-}  // namespace mimicx::fuzz
+const Target target("certificates", seeds, feed);
+
+}  // namespace mimicx::fuzz::certificates

@@ -7,7 +7,7 @@
 #include "rl/trainer.h"
 #include "teaching/school.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::checkpoints {
 namespace {
 
 using rl::tracking::TrackingEnvironment;
@@ -50,4 +50,6 @@ std::vector<std::string> seeds() { return seeds_of(archives()); }
 
 void feed(const std::string& bytes) { feed_member(archives(), bytes); }
 
-}  // namespace mimicx::fuzz
+const Target target("checkpoints", seeds, feed);
+
+}  // namespace mimicx::fuzz::checkpoints

@@ -4,7 +4,7 @@
 #include "import/deepmimic.h"
 #include "import/retarget/retarget.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::deepmimic {
 
 std::vector<std::string> seeds() {
   const std::string quaternion = ", 1, 0, 0, 0", hinge = ", 0.5";
@@ -24,4 +24,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("deepmimic", seeds, feed);
+
+}  // namespace mimicx::fuzz::deepmimic

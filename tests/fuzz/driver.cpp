@@ -12,7 +12,7 @@ namespace {
 constexpr int kSurvived = 0, kFailed = 1, kWrongUsage = 2;
 
 /// @param what  how to reproduce the input, for the message of a failure
-bool survives(const std::string& bytes, const std::string& what, void (*feed)(const std::string&)) {
+bool survives(const std::string& bytes, const std::string& what, Target::Feed* feed) {
   try {
     feed(bytes);
     return true;
@@ -24,8 +24,17 @@ bool survives(const std::string& bytes, const std::string& what, void (*feed)(co
 
 }  // namespace
 
+Target::Target(const std::string& name, Seeds* seeds_of_it, Feed* feeder) : seeds(seeds_of_it), feed(feeder) {
+  targets().emplace(name, *this);
+}
+
+std::map<std::string, Target>& targets() {
+  static std::map<std::string, Target> all;
+  return all;
+}
+
 int run_fuzz(const std::vector<std::string>& arguments, const std::vector<std::string>& seeds,
-             void (*feed)(const std::string&)) {
+             Target::Feed* feed) {
   std::uint64_t runs = 10000, seed = 1, from = 0;
   std::vector<std::string> files;
   for (std::size_t i = 0; i < arguments.size(); ++i) {

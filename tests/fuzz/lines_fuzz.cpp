@@ -10,7 +10,7 @@
 #include "record/shard.h"
 #include "record/table.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::lines {
 namespace {
 
 void feed_table(const std::string& bytes) {
@@ -58,4 +58,6 @@ void feed(const std::string& bytes) {
   tools::natural_number_of(bytes);
 }
 
-}  // namespace mimicx::fuzz
+const Target target("lines", seeds, feed);
+
+}  // namespace mimicx::fuzz::lines

@@ -5,7 +5,7 @@
 #include "import/motion_file.h"
 #include "motion/made_motions.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::markers {
 namespace {
 
 /// The file with markers of other names, which the reader does not know.
@@ -36,4 +36,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("markers", seeds, feed);
+
+}  // namespace mimicx::fuzz::markers

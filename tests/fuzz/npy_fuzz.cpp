@@ -5,7 +5,7 @@
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::npy {
 
 std::vector<std::string> seeds() {
   motion::Clip clip = test::random_clip(1, 3, 0.3);
@@ -38,4 +38,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("npy", seeds, feed);
+
+}  // namespace mimicx::fuzz::npy

@@ -4,7 +4,7 @@
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::npz {
 
 std::vector<std::string> seeds() {
   motion::Clip clip = test::random_clip(1, 3, 0.3);
@@ -33,4 +33,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("npz", seeds, feed);
+
+}  // namespace mimicx::fuzz::npz

@@ -6,7 +6,7 @@
 #include "import/positions.h"
 #include "motion/made_motions.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::positions {
 
 std::vector<std::string> seeds() {
   const NpyArray positions = test::positions_of(test::random_clip(1, 3, 0.3)),
@@ -27,4 +27,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("positions", seeds, feed);
+
+}  // namespace mimicx::fuzz::positions

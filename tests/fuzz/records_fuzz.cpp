@@ -10,7 +10,7 @@
 #include "record/sequence_entry.h"
 #include "record/shard_list.h"
 
-namespace mimicx::fuzz {
+namespace mimicx::fuzz::records {
 namespace {
 
 /// Writing what a reader returns gives a text that reads as the same value.
@@ -70,4 +70,6 @@ void feed(const std::string& bytes) {
   }
 }
 
-}  // namespace mimicx::fuzz
+const Target target("records", seeds, feed);
+
+}  // namespace mimicx::fuzz::records

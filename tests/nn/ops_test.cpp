@@ -70,7 +70,7 @@ TEST_P(EveryOp, GradientsOfThreeOrdersMatchFiniteDifferences) {
   expect_all_orders_match_differences([&](T& t, X x) { return weighted(t, operation(t, x)); }, inputs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ops, EveryOp, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(All, EveryOp, testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(Ops, ProductsOfAllTransposesEqualTripleLoops) {

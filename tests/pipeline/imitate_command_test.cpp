@@ -159,7 +159,11 @@ TEST_F(Imitate, ForcesExplainTheMotion) {
 }
 
 TEST_F(Imitate, Eq3UsesKeypointsOnlyIfFittedToThemOrRequested) {
-  const std::string noisy = std::string(MIMICX_SOURCE_DIR) + "/data/synthetic/test/noisy/stand_1.npz";
+  motion::Clip clip =
+      motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz");
+  clip.rotations.resize(45), clip.trans.resize(45), clip.keypoints->uvc.resize(45);
+  const std::string noisy = out("stand_1.npz").string();
+  motion::write_clip(noisy, clip);
   const auto lowest_projection = [&](bool fit, bool unfitted_keypoints) {
     ImitateConfig config = small_run(out(fit                  ? "fitted"
                                          : unfitted_keypoints ? "requested"

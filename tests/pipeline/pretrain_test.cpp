@@ -29,7 +29,7 @@ TEST(ShareSamples, AreProportionalToSquareRootsAndSumToTheBudget) {
 }
 
 TEST_F(Pretrain, LeavesEveryFileTheDocumentationNames) {
-  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
+  pretrain_once("run");
   const auto files = run::results_of(out("run"));
   for (const char* name : {"options.npz", "clusters.json", "manifest.json", "training/option0.csv",
                            "training/option1.csv", "checkpoints/option0.npz", "checkpoints/option1.npz"})
@@ -69,9 +69,8 @@ TEST_F(Pretrain, OptionsAreTrainedOnTheMotionsOfTheirOwnClusterAlone) {
 }
 
 TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  PretrainConfig config = pretraining("one");
-  run(config);
-  config.out = out("two");
+  pretrain_once("one");
+  PretrainConfig config = pretraining("two");
   config.threads = 2;
   EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);
   EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);  // in the second option
@@ -80,7 +79,7 @@ TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
 }
 
 TEST_F(Pretrain, KeepsAFinishedRunAndRemakesMissingOptions) {
-  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
+  pretrain_once("run");
   const auto before = run::results_of(out("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "clusters.json");
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
@@ -101,17 +100,25 @@ TEST_F(Pretrain, ZeroBudgetCheckpointDoesNotChangeOnResume) {
 }
 
 TEST_F(Pretrain, NamesUnreadableMotionsAndContinues) {
+  copy_motions();
   std::ofstream(motions / "broken.npz") << "no archive";
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kSomeFailed);
   EXPECT_EQ(options::read_options(out("run"))->options.size(), 2u);
   EXPECT_NE(run::results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
 }
 
+/// A second and a half of a noisy motion with keypoints.
+motion::Clip noisy_stand() {
+  motion::Clip clip =
+      motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz");
+  clip.rotations.resize(45), clip.trans.resize(45), clip.keypoints->uvc.resize(45);
+  return clip;
+}
+
 TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
-  const std::filesystem::path noisy = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy";
-  std::filesystem::remove_all(motions);
+  motions = out("motions");
   std::filesystem::create_directories(motions);
-  motion::Clip clip = motion::read_clip(noisy / "stand_1.npz");
+  motion::Clip clip = noisy_stand();
   motion::write_clip(motions / "stand_1.npz", clip);
   PretrainConfig config = pretraining("seen");
   config.clusters.clusters = 1;
@@ -127,7 +134,7 @@ TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
 
 TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid) {
   PretrainConfig config = pretraining("run");
-  run(config);
+  pretrain_once("run");
   std::string earlier = read_file(out("run") / "manifest.json");
   for (const std::string setting : {"\"as_is\": false,", "\"keypoints\": true,"}) {
     const std::size_t at = earlier.find(setting);
@@ -147,10 +154,9 @@ TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid
 }
 
 TEST_F(Pretrain, AsIsCorrectsNothing) {
-  const std::filesystem::path noisy = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy";
-  std::filesystem::remove_all(motions);
+  motions = out("motions");
   std::filesystem::create_directories(motions);
-  std::filesystem::copy(noisy / "stand_1.npz", motions / "stand_1.npz");
+  motion::write_clip(motions / "stand_1.npz", noisy_stand());
   PretrainConfig config = pretraining("run");
   config.clusters.clusters = 1;
   config.correction.as_is = true;
@@ -179,7 +185,7 @@ std::vector<std::string> rows_of(const std::string& log) {
 
 TEST_F(Pretrain, MoreSamplesContinueTheSameTrainings) {
   PretrainConfig config = pretraining("run");
-  run(config);
+  pretrain_once("run");
   auto before = run::results_of(out("run"));
   config.training.samples *= 2;
   const program::Outcome more =
@@ -208,7 +214,7 @@ TEST_F(Pretrain, MoreSamplesGiveTheSameBytesWhereverEarlierRunsStopped) {
     config.training.samples = times * program::small_training().samples;
     return config;
   };
-  run(with_samples(1));
+  pretrain_once("one");
   run(with_samples(2));
   config.out = out("two");
   config.threads = 2;
@@ -222,7 +228,7 @@ TEST_F(Pretrain, MoreSamplesGiveTheSameBytesWhereverEarlierRunsStopped) {
 
 TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
   PretrainConfig config = pretraining("run");
-  run(config);
+  pretrain_once("run");
   const auto before = run::results_of(out("run"));
   config.training.samples *= 2;
   config.training.seed += 1;
@@ -232,7 +238,7 @@ TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
 
 TEST_F(Pretrain, ItsFolderOfAnEarlierVersionIsDoneWhereFormerSettingsAreTodaysConstants) {
   const PretrainConfig config = pretraining("run");
-  run(config);
+  pretrain_once("run");
   const std::filesystem::path manifest = out("run") / "manifest.json";
   const std::string today = read_file(manifest), opening = "\"settings\": {";
   const auto with = [&](const std::string& setting) {
@@ -251,7 +257,7 @@ TEST_F(Pretrain, ItsFolderOfAnEarlierVersionIsDoneWhereFormerSettingsAreTodaysCo
 
 TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {
   PretrainConfig config = pretraining("run");
-  run(config);
+  pretrain_once("run");
   config.encoder.steps += 1;
   EXPECT_THROW(run(config), std::invalid_argument);
 }

@@ -25,27 +25,34 @@ Call compiled(const TemporaryFolder& folder, const std::string& source) {
                "/main");
 }
 
-TEST(PolicyHeader, MatchesItsRecordsBitForBit) {
-  for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits(), &exported_option()}) {
-    const TemporaryFolder folder;
-    write_file_atomically(folder.path / "policy.h", to_header(*exported));
-    const Call call = compiled(
-        folder,
-        "#include \"policy.h\"\nint main() { return policy_a_squat::self_test() == 0.0F ? 0 : 1; }\n");
-    EXPECT_EQ(call.status, 0) << call.text;
-  }
+/// A header, its policy called by this name.
+std::string header_of(ExportedPolicy policy, const std::string& name) {
+  policy.meant.motion.name = name;
+  return to_header(policy);
 }
 
-TEST(PolicyHeader, DetectsAWrongWeight) {
+TEST(PolicyHeader, MatchesItsRecordsBitForBitBesideOthersAndInSeveralFiles) {
   const TemporaryFolder folder;
-  std::string text = to_header(exported_in_8_bits());
-  const std::size_t at = text.find("kBiases2[55] = {");
+  write_file_atomically(folder.path / "one.h", header_of(exported_in_float(), "float"));
+  write_file_atomically(folder.path / "two.h", header_of(exported_in_8_bits(), "7/\"other\" one"));
+  write_file_atomically(folder.path / "three.h", header_of(exported_option(), "option"));
+  write_file_atomically(folder.path / "more.cpp",
+                        "#include \"two.h\"\nfloat more() { return policy_7_other_one::self_test(); }\n");
+  std::string wrong = header_of(exported_in_8_bits(), "wrong");
+  const std::size_t at = wrong.find("kBiases2[55] = {");
   ASSERT_NE(at, std::string::npos);
-  text.insert(text.find('\n', at) + 1, " 0.1F +");
-  write_file_atomically(folder.path / "policy.h", text);
-  const Call call = compiled(
-      folder, "#include \"policy.h\"\nint main() { return policy_a_squat::self_test() > 0.05F ? 0 : 1; }\n");
-  EXPECT_EQ(call.status, 0) << call.text;
+  wrong.insert(wrong.find('\n', at) + 1, " 0.1F +");
+  write_file_atomically(folder.path / "wrong.h", wrong);
+  const Call call = compiled(folder,
+                             "#include \"one.h\"\n#include \"two.h\"\n#include \"three.h\"\n#include "
+                             "\"wrong.h\"\n#include \"more.cpp\"\n"
+                             "int main() {\n"
+                             "  if (policy_float::self_test() != 0.0F) return 1;\n"
+                             "  if (more() != 0.0F) return 2;\n"
+                             "  if (policy_option::self_test() != 0.0F) return 3;\n"
+                             "  return policy_wrong::self_test() > 0.05F ? 0 : 4;\n"
+                             "}\n");
+  EXPECT_EQ(call.status, 0) << call.text << "4: a wrong weight is not detected";
 }
 
 TEST(PolicyHeader, OptionsFollowTargetsFromOutside) {
@@ -69,20 +76,6 @@ TEST(PolicyHeader, OptionsFollowTargetsFromOutside) {
       "  for (int k = 0; k < 4; ++k) if (by_frame.q[4][k] != by_state.q[4][k]) return 1;\n"
       "  return option::kFrames == 2 && turned > 0.01F && option::self_test() == 0.0F ? 0 : 1;\n"
       "}\n");
-  EXPECT_EQ(call.status, 0) << call.text;
-}
-
-TEST(PolicyHeader, CanBeIncludedBesideAnotherAndInSeveralFiles) {
-  const TemporaryFolder folder;
-  ExportedPolicy other = exported_in_8_bits();
-  other.meant.motion.name = "7/\"other\" one";
-  write_file_atomically(folder.path / "one.h", to_header(exported_in_float()));
-  write_file_atomically(folder.path / "two.h", to_header(other));
-  write_file_atomically(folder.path / "more.cpp",
-                        "#include \"two.h\"\nfloat more() { return policy_7_other_one::self_test(); }\n");
-  const Call call = compiled(folder,
-                             "#include \"one.h\"\n#include \"two.h\"\n#include \"more.cpp\"\n"
-                             "int main() { return policy_a_squat::self_test() + more() == 0.0F ? 0 : 1; }\n");
   EXPECT_EQ(call.status, 0) << call.text;
 }
 

@@ -42,7 +42,7 @@ TEST(PolicyArrays, RunAsTheDocumentationSays) {
 TEST(PolicyArrays, HoldTheMotionTheBodyAndTheRecords) {
   const Npz npz = to_arrays(exported_in_8_bits());
   EXPECT_EQ(npz.at("state_q").shape, (std::vector<std::size_t>{33, 91}));
-  EXPECT_EQ(npz.at("weight0").shape, (std::vector<std::size_t>{570, 128}));
+  EXPECT_EQ(npz.at("weight0").shape, (std::vector<std::size_t>{570, 32}));
   EXPECT_EQ(npz.at("joint_names").text[kLeftKnee], "left_knee");
   EXPECT_EQ(npz.at("test_observations").shape, (std::vector<std::size_t>{4, 570}));
   EXPECT_EQ(npz.at("test_targets").shape, (std::vector<std::size_t>{4, 22, 4}));

@@ -1,4 +1,4 @@
-/// An untrained policy: random weights in the usual sizes, on a short squat.
+/// An untrained policy: a small network of random weights, on a short squat.
 #pragma once
 
 #include "core/random.h"
@@ -25,7 +25,7 @@ inline const files::StoredPolicy& small_policy() {
     rl::AgentShape shape;
     shape.observation_dim = rl::tracking::kStateSize;
     shape.action_dim = kDofs;
-    shape.hidden = {128, 128};
+    shape.hidden = {32, 32};
     shape.last_scale = 0.02F;
     made.agent = rl::make_agent(shape, 4);
     Random random(7, {});
@@ -80,7 +80,7 @@ inline const ExportedPolicy& exported_option() {
     rl::AgentShape shape;
     shape.observation_dim = rl::tracking::kEncodedRest + small_coder().code_size();
     shape.action_dim = kDofs;
-    shape.hidden = {128, 128};
+    shape.hidden = {32, 32};
     files::StoredPolicy policy = small_policy();
     policy.agent = rl::make_agent(shape, 5);
     return export_policy(policy, false, small_coder());

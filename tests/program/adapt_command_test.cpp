@@ -20,8 +20,8 @@ namespace {
 using Adapt = PretrainedOptions;
 
 TEST_F(Adapt, RecordsArrangementEndingAndWhatTheOptionsDidBefore) {
-  run(pretraining("options"));
-  run(adapting("run", "options"));
+  pretrain_once("options");
+  adapt_once("budget", adapting("run", "options"));
   const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   EXPECT_EQ(manifest.options, pipeline::options::read_options(out("options"))->checksum);
   const record::SequenceEntry& entry = manifest.sequences.at(0);
@@ -33,7 +33,7 @@ TEST_F(Adapt, RecordsArrangementEndingAndWhatTheOptionsDidBefore) {
 }
 
 TEST_F(Adapt, KeepsTheClustersOfItsOptionsAndShowsThemInTheReport) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
   run(config);
@@ -52,7 +52,7 @@ std::shared_ptr<const pipeline::options::OptionSet> falling(const pipeline::opti
 }
 
 TEST_F(Adapt, TriesTheNextSetIfTheFirstDoesNotFollow) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("second", "options");
   config.training.samples = 0;
   const auto follows = config.options.front();
@@ -101,7 +101,7 @@ std::string differences(const std::map<std::string, std::string>& a,
 }
 
 TEST_F(Adapt, TwoSetsGiveTheSameBytesAfterInterruptedSearches) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("whole", "options");
   config.arrangement.selector = pipeline::options::Selector::kBeam;
   config.arrangement.beam_width = 3;
@@ -119,7 +119,7 @@ TEST_F(Adapt, TwoSetsGiveTheSameBytesAfterInterruptedSearches) {
 
 /// Its search was cut, so it trained options that the whole search does not choose.
 TEST_F(Adapt, DoesNotContinueATrainingOfOtherOptions) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("hasty", "options");
   config.arrangement.selector = pipeline::options::Selector::kBeam;
   const auto follows = config.options.front();
@@ -139,7 +139,7 @@ TEST_F(Adapt, DoesNotContinueATrainingOfOtherOptions) {
 }
 
 TEST_F(Adapt, UnreadableClustersOmitOnlyTheMap) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
   const auto bad = std::make_shared<pipeline::options::OptionSet>(*config.options.front());
@@ -154,7 +154,7 @@ TEST_F(Adapt, UnreadableClustersOmitOnlyTheMap) {
 }
 
 TEST_F(Adapt, NamesTheSetTakenIfNoneFollows) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
   const auto falls = falling(*config.options.front());
@@ -170,7 +170,7 @@ TEST_F(Adapt, NamesTheSetTakenIfNoneFollows) {
 }
 
 TEST_F(Adapt, SetWithoutClustersOmitsTheMap) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
   const auto nameless = std::make_shared<pipeline::options::OptionSet>(*config.options.front());
@@ -181,7 +181,7 @@ TEST_F(Adapt, SetWithoutClustersOmitsTheMap) {
 }
 
 TEST_F(Adapt, ZeroBudgetLeavesTheOptionsUnchanged) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
   run(config);
@@ -192,9 +192,9 @@ TEST_F(Adapt, ZeroBudgetLeavesTheOptionsUnchanged) {
 }
 
 TEST_F(Adapt, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("one", "options");
-  run(config);
+  adapt_once("budget", config);
   config.run.out = out("two");
   config.run.threads = 2;
   EXPECT_EQ(run(config, 3), record::RunOutcome::kInterrupted);
@@ -203,9 +203,9 @@ TEST_F(Adapt, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
 }
 
 TEST_F(Adapt, MoreSamplesContinueTheSameTraining) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
-  run(config);
+  adapt_once("budget", config);
   const std::string before = run::results_of(out("run")).at("training/sway.csv");
   config.training.samples *= 2;
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
@@ -220,7 +220,7 @@ TEST_F(Adapt, MoreSamplesContinueTheSameTraining) {
 
 // The search comes before the training: it must hear of an interrupt, and of the seconds that are over.
 TEST_F(Adapt, BeamSearchIsInterruptibleAndCountsItsSeconds) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("stopped", "options");
   config.arrangement.selector = pipeline::options::Selector::kBeam;
   config.arrangement.beam_width = 3;
@@ -243,7 +243,7 @@ TEST_F(Adapt, BeamSearchIsInterruptibleAndCountsItsSeconds) {
 }
 
 TEST_F(Adapt, RecordsThresholdAndStallEndings) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("good", "options");
   config.training.stop_reward = 1e-9;  // whatever it does is good enough
   run(config);
@@ -278,7 +278,7 @@ TEST_F(Adapt, ResultDoesNotDependOnTheTruth) {
     std::filesystem::create_directories(out("data") / which);
     motion::write_clip(out("data") / which / "stand_1.npz", beginning_of(which));
   }
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("with", "options");
   config.run.inputs = {(out("data") / "noisy" / "stand_1.npz").string()};
   run(config);
@@ -297,7 +297,7 @@ TEST_F(Adapt, ResultDoesNotDependOnIgnoredKeypoints) {
     motion::write_clip(out(folder) / "stand_1.npz", clip);
     clip.keypoints.reset();
   }
-  run(pretraining("options"));
+  pretrain_once("options");
   const auto log_of = [&](const std::string& folder, const std::string& input, bool fit) {
     AdaptConfig config = adapting(folder, "options");
     config.run.correction.fit = fit;
@@ -311,7 +311,7 @@ TEST_F(Adapt, ResultDoesNotDependOnIgnoredKeypoints) {
 }
 
 TEST_F(Adapt, RejectsImpossibleArrangementSettings) {
-  run(pretraining("options"));
+  pretrain_once("options");
   for (const pipeline::options::ArrangementConfig& wrong :
        {pipeline::options::ArrangementConfig{0.1, 0.1},
         pipeline::options::ArrangementConfig{std::nan(""), 0.1},
@@ -365,9 +365,9 @@ AdaptConfig teaching_quickly(AdaptConfig config) {
 }
 
 TEST_F(Adapt, FollowedPlanTeachesAPolicyWithoutOtherTraining) {
-  run(pretraining("options"));
+  pretrain_once("options");
   const AdaptConfig config = teaching_quickly(adapting("run", "options"));
-  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  adapt_once("taught", config);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(entry.ending, record::SequenceEnding::kFollowed);
   EXPECT_TRUE(entry.arrangement.empty());
@@ -383,9 +383,9 @@ TEST_F(Adapt, FollowedPlanTeachesAPolicyWithoutOtherTraining) {
 }
 
 TEST_F(Adapt, StoredPolicyReproducesTheManifestsNumbers) {
-  run(pretraining("options"));
+  pretrain_once("options");
   const AdaptConfig config = teaching_quickly(adapting("run", "options"));
-  run(config);
+  adapt_once("taught", config);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   const files::StoredPolicy policy = files::read_policy(out("run") / "policies" / "sway.npz");
   rl::tracking::TrackingConfig task;
@@ -397,7 +397,7 @@ TEST_F(Adapt, StoredPolicyReproducesTheManifestsNumbers) {
 }
 
 TEST_F(Adapt, TeachesAPolicyOnlyOnRequest) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = adapting("run", "options");
   config.method = AdaptMethod::kAuto;
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
@@ -408,9 +408,9 @@ TEST_F(Adapt, TeachesAPolicyOnlyOnRequest) {
 }
 
 TEST_F(Adapt, TeachingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = teaching_quickly(adapting("one", "options"));
-  run(config);
+  adapt_once("taught", config);
   config.run.out = out("two");
   config.run.threads = 2;
   EXPECT_EQ(run(config, 60), record::RunOutcome::kInterrupted);
@@ -419,20 +419,18 @@ TEST_F(Adapt, TeachingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
 }
 
 TEST_F(Adapt, SeedAlsoControlsTheLessons) {
-  run(pretraining("options"));
-  const auto policy_of = [&](const std::string& folder, std::uint64_t seed) {
-    AdaptConfig config = teaching_quickly(adapting(folder, "options"));
-    config.training.seed = seed;
-    run(config);
-    return run::results_of(out(folder)).at("policies/sway.npz");
-  };
-  const std::string policy = policy_of("one", 1);
-  EXPECT_EQ(policy, policy_of("again", 1));
-  EXPECT_NE(policy, policy_of("two", 2));
+  pretrain_once("options");
+  AdaptConfig config = teaching_quickly(adapting("one", "options"));
+  adapt_once("taught", config);
+  config.run.out = out("two");
+  config.training.seed = 2;
+  run(config);
+  EXPECT_NE(run::results_of(out("one")).at("policies/sway.npz"),
+            run::results_of(out("two")).at("policies/sway.npz"));
 }
 
 TEST_F(Adapt, RecordsTeachingStoppedByTheTimeLimit) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = teaching_quickly(adapting("run", "options"));
   config.teaching.student.rounds = 100000;
   config.run.limit_seconds = 2.0;  // the plan takes a twentieth of that
@@ -445,7 +443,7 @@ TEST_F(Adapt, RecordsTeachingStoppedByTheTimeLimit) {
 }
 
 TEST_F(Adapt, FallingStudentIsPolishedByPpo) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = teaching_quickly(adapting("run", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
   config.teaching.student.rounds = 1;
@@ -470,7 +468,7 @@ AdaptConfig hopeless(AdaptConfig config) {
 }
 
 TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = hopeless(adapting("auto", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
   run(config);
@@ -495,12 +493,12 @@ TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
   EXPECT_EQ(chosen.metrics, expected.metrics);
   EXPECT_EQ(chosen.ending, expected.ending);
   EXPECT_EQ(read_file(out("auto") / chosen.output),
-            read_file(out(plan_is_nearer ? "plan" : "options") / expected.output));
+            read_file(out(plan_is_nearer ? "plan" : "options-alone") / expected.output));
   EXPECT_NE(chosen.notes.back().find("; written: the "), std::string::npos) << chosen.notes.back();
 }
 
 TEST_F(Adapt, TrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
-  run(pretraining("options"));
+  pretrain_once("options");
   AdaptConfig config = hopeless(adapting("whole", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
   config.arrangement.selector =

@@ -29,7 +29,8 @@ constexpr const char* kSmall =
 
 TEST_F(Cli, FailurePrintsItsMotionAndTheNextStep) {
   motion::write_clip(path("a.npz"), hovering_clip());
-  const std::string command = "plan " + path("a.npz") + " --floor 0 --as-is --threads 1 --out " + path("run");
+  const std::string command =
+      "plan " + path("a.npz") + " --floor 0 --as-is --set plan_budget=4 --threads 1 --out " + path("run");
   const Call call = mimicx(command);
   ASSERT_EQ(call.status, 1) << call.text;
   EXPECT_TRUE(std::regex_search(call.text, std::regex("fails at frame [0-9]+"))) << "which frame\n"

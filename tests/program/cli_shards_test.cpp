@@ -48,7 +48,7 @@ TEST_F(CliShards, MergeIntoTheBytesOfTheUnshardedRun) {
   const auto whole = run::results_of(path("whole"));
   ASSERT_TRUE(whole.contains("motions/a-2.npz") && whole.contains("clean/b.bvh") &&
               whole.contains("report.html"));
-  for (const int count : {1, 2, 5}) {
+  for (const int count : {1, 5}) {  // 2: KilledShardContinuesToTheSameBytes
     const std::string out = std::string("in").append(std::to_string(count));
     for (int i = count - 1; i >= 0; --i) {
       const Call call = mimicx(shard(out, i, count));

@@ -248,7 +248,7 @@ TEST_F(Cli, UnreadableFileIsNamedWithStatusOne) {
 TEST_F(Cli, InterruptedTrainingContinuesToTheSameBytes) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string settings =
-      " --samples 40960 --set characters=64 --set group_size=16 --set horizon=8"
+      " --samples 20480 --set characters=64 --set group_size=16 --set horizon=8"
       " --set minibatch=256 --set hidden_1=16 --set hidden_2=16 --out ";
   const std::string command = "imitate " + path("a.npz") + settings;
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);
@@ -290,8 +290,8 @@ TEST_F(Cli, AdaptTrainsNothingIfThePlanSucceeds) {
   EXPECT_FALSE(std::filesystem::exists(path("a.mimicx/policies"))) << "nobody asked for a policy";
   EXPECT_TRUE(
       says(mimicx("adapt --method plan --policy " + path("a.npz")), "--policy: expected --method auto"));
-  EXPECT_EQ(mimicx("adapt --policy --set teach_rounds=2 --set polish_samples=0 " + path("a.npz") + " --out " +
-                   path("policy"))
+  EXPECT_EQ(mimicx("adapt --policy --set teach_rounds=2 --set teach_hidden=16 --set polish_samples=0 " +
+                   path("a.npz") + " --out " + path("policy"))
                 .status,
             0);
   EXPECT_TRUE(std::filesystem::exists(path("policy/policies/a.npz")));

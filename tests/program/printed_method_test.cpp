@@ -11,13 +11,26 @@
 namespace mimicx::program {
 namespace {
 
-/// One motion with keypoints beside those of PretrainedOptions.
+/// One motion with keypoints beside those of PretrainedOptions; options of the printed method in "options"
+/// and a run of them in "run", made once for all tests.
 struct PrintedMethod : PretrainedOptions {
   void SetUp() override {
-    PretrainedOptions::SetUp();
-    std::filesystem::copy(
-        std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic" / "test" / "noisy" / "stand_1.npz",
-        seen);
+    static const TemporaryFolder made;
+    motions = made.path / "motions";
+    seen = motions / "stand_1.npz";
+    const bool first = std::filesystem::is_empty(made.path);
+    if (first) {
+      std::filesystem::copy(made_motions(), motions);
+      motion::Clip clip = motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) /
+                                            "data/synthetic/test/noisy/stand_1.npz");
+      clip.rotations.resize(45), clip.trans.resize(45), clip.keypoints->uvc.resize(45);
+      motion::write_clip(seen, clip);
+      EXPECT_EQ(run(printed_options("options")), record::RunOutcome::kAllGood);
+      run(printed("run", "options"));
+    }
+    for (const char* name : {"options", "run"})
+      std::filesystem::copy(first ? out(name) : made.path / name, first ? made.path / name : out(name),
+                            std::filesystem::copy_options::recursive);
   }
   pipeline::PretrainConfig printed_options(const std::string& name) const {
     pipeline::PretrainConfig config = pretraining(name);
@@ -30,7 +43,7 @@ struct PrintedMethod : PretrainedOptions {
     config.run.inputs = {seen.string()};
     return config;
   }
-  std::filesystem::path seen = motions / "stand_1.npz";
+  std::filesystem::path seen;
 };
 
 double lowest(const std::filesystem::path& log, const std::string& column) {
@@ -41,12 +54,10 @@ double lowest(const std::filesystem::path& log, const std::string& column) {
 }
 
 TEST_F(PrintedMethod, TrainsOptionsAndFineTunesThem) {
-  EXPECT_EQ(run(printed_options("options")), record::RunOutcome::kAllGood);
   const auto options = pipeline::options::read_options(out("options"));
   EXPECT_EQ(options->actions,
             (rl::tracking::ActionSettings{rl::tracking::ActionMode::kAbsolute, false, false}));
   EXPECT_TRUE(options->options[0].option.encoder.has_value());
-  run(printed("run", "options"));
   const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   EXPECT_EQ(manifest.method, "printed");
   EXPECT_EQ(manifest.settings, manifest_settings(printed("run", "options")));
@@ -60,8 +71,6 @@ TEST_F(PrintedMethod, TrainsOptionsAndFineTunesThem) {
 }
 
 TEST_F(PrintedMethod, Eq3ActsWithoutAFitInBothStages) {
-  run(printed_options("options"));
-  run(printed("run", "options"));
   EXPECT_LT(std::min(lowest(out("options") / "training" / "option0.csv", "reward_term:projection"),
                      lowest(out("options") / "training" / "option1.csv", "reward_term:projection")),
             1.0);
@@ -74,30 +83,27 @@ TEST_F(PrintedMethod, Eq3ActsWithoutAFitInBothStages) {
 }
 
 TEST_F(PrintedMethod, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  run(printed_options("options"));
   pipeline::PretrainConfig again = printed_options("again");
   again.threads = 2;
   EXPECT_EQ(run(again, 2), record::RunOutcome::kInterrupted);
   run(again);
   EXPECT_EQ(run::results_of(out("options")), run::results_of(out("again")));
-  run(printed("one", "options"));
   AdaptConfig config = printed("two", "options");
   config.run.threads = 2;
   EXPECT_EQ(run(config, 3), record::RunOutcome::kInterrupted);
   run(config);
-  EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
+  EXPECT_EQ(run::results_of(out("run")), run::results_of(out("two")));
 }
 
 TEST_F(PrintedMethod, HasOneSetOfOptionsOfAbsoluteActions) {
-  run(printed_options("options"));
   pipeline::PretrainConfig other = pretraining("residual");
   other.training.samples = 0;
   run(other);
   EXPECT_NE(refusal_of([&] {
-              run(printed("run", "residual"));
+              run(printed("other", "residual"));
             }).find("expected policies trained with residual_actions=0"),
             std::string::npos);
-  AdaptConfig two = printed("run", "options");
+  AdaptConfig two = printed("other", "options");
   two.options.push_back(two.options.front());
   EXPECT_NE(refusal_of([&] { run(two); }).find("expected one set for --method printed, found 2"),
             std::string::npos);

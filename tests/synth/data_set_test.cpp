@@ -143,6 +143,7 @@ TEST(SynthSet, MixedDrawsAPresetForEveryClipAndHalfOfThemHaveNoKeypoints) {
   for (int i = 0; i < kClips; ++i) {
     SynthConfig clip;
     clip.kind = "stand";
+    clip.seconds = 4.0;
     clip.seed = static_cast<std::uint64_t>(i);
     const motion::Clip noisy = make_synth_pair(clip, mixed).noisy;
     for (const char* name : {"gvhmr", "vibe", "independent", "none"}) {

@@ -27,17 +27,16 @@ std::string refusal(const Work& work) {
 }
 
 struct Teach : testing::Test {
-  void SetUp() override {
-    std::filesystem::create_directories(folder.path / "motions");
-    for (int frames : {20, 24, 28})
-      motion::write_clip(folder.path / "motions" / ("stand" + std::to_string(frames) + ".npz"),
-                         motion::standing_clip(frames));
+  /// The motions of all tests, made once.
+  static std::filesystem::path made_motion(int frames) {
+    static const TemporaryFolder made;
+    const std::filesystem::path file = made.path / ("stand" + std::to_string(frames) + ".npz");
+    if (!std::filesystem::exists(file)) motion::write_clip(file, motion::standing_clip(frames));
+    return file;
   }
   TeachConfig teaching(const std::string& out) const {
     TeachConfig config = program::teach_configuration();
-    for (int frames : {20, 24, 28})
-      config.planning.run.inputs.push_back(
-          (folder.path / "motions" / ("stand" + std::to_string(frames) + ".npz")).string());
+    for (int frames : {20, 24, 28}) config.planning.run.inputs.push_back(made_motion(frames).string());
     config.out = folder.path / out;
     config.school.hidden = {16, 16};
     config.visits = 2;  // three rounds of two motions
@@ -50,13 +49,23 @@ struct Teach : testing::Test {
     return program::run_in_context([&](const record::RunContext& context) { return teach(config, context); },
                                    asked);
   }
+  /// What `run(teaching(name))` leaves; taught once for all tests.
+  void teach_once(const std::string& name) const {
+    static const TemporaryFolder made;
+    if (std::filesystem::is_empty(made.path)) {
+      TeachConfig config = teaching(name);
+      config.out = made.path;
+      EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+    }
+    std::filesystem::copy(made.path, out(name), std::filesystem::copy_options::recursive);
+  }
   std::filesystem::path out(const std::string& name) const { return folder.path / name; }
 
   TemporaryFolder folder;
 };
 
 TEST_F(Teach, LeavesEveryFileTheDocumentationNamesAndOptionsThatAdaptReads) {
-  EXPECT_EQ(run(teaching("run")).value, record::RunOutcome::kAllGood);
+  teach_once("run");
   const auto files = run::results_of(out("run"));
   for (const char* name : {"options.npz", "clusters.json", "manifest.json", "training/option0.csv",
                            "checkpoints/option0.npz", "plans/manifest.json", "plans/gains/stand20.npz"})
@@ -69,7 +78,7 @@ TEST_F(Teach, LeavesEveryFileTheDocumentationNamesAndOptionsThatAdaptReads) {
 }
 
 TEST_F(Teach, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  run(teaching("one"));
+  teach_once("one");
   TeachConfig config = teaching("two");
   config.planning.run.threads = 2;
   int interruptions = 0;
@@ -84,7 +93,7 @@ TEST_F(Teach, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
 }
 
 TEST_F(Teach, ExistingPlansGiveTheSameOptions) {
-  run(teaching("run"));
+  teach_once("run");
   TeachConfig config = teaching("again");
   config.plans = {(out("run") / "plans").string()};
   config.planning.run.inputs.clear();
@@ -93,7 +102,7 @@ TEST_F(Teach, ExistingPlansGiveTheSameOptions) {
 }
 
 TEST_F(Teach, KeepsAFinishedRunAndRejectsOtherSettings) {
-  run(teaching("run"));
+  teach_once("run");
   const auto written = std::filesystem::last_write_time(out("run") / "options.npz");
   EXPECT_NE(run(teaching("run")).messages.find("taught already"), std::string::npos);
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "options.npz"), written);
@@ -106,7 +115,7 @@ TEST_F(Teach, FolderWithoutPlansErrorNamesTheCommand) {
   TeachConfig config = teaching("run");
   config.planning.run.inputs.clear();
   plan::PlanMotionsConfig plan = plan::plan_configuration();
-  plan.run.inputs = {(folder.path / "motions" / "stand20.npz").string()};
+  plan.run.inputs = {made_motion(20).string()};
   plan.run.out = out("plans");
   program::run_in_context(
       [&](const record::RunContext& context) { return plan::plan_motions(plan, context); });
@@ -115,7 +124,7 @@ TEST_F(Teach, FolderWithoutPlansErrorNamesTheCommand) {
 }
 
 TEST_F(Teach, TeacherOnTheReferenceRepeatsThePlan) {
-  run(teaching("run"));
+  teach_once("run");
   const std::vector<PlannedMotion> motions = followed_plans({out("run") / "plans"});
   ASSERT_EQ(motions.size(), 3u);
   const Teacher teacher = read_teacher(motions[1], {});
@@ -133,7 +142,7 @@ TEST_F(Teach, TeacherOnTheReferenceRepeatsThePlan) {
 }
 
 TEST_F(Teach, TeacherOnThePlannedMotionRepeatsIt) {
-  run(teaching("run"));
+  teach_once("run");
   const PlannedMotion motion = followed_plans({out("run") / "plans"})[1];
   const Teacher teacher = read_teacher(motion, {}, Followed::kPlan);
   const motion::Reference planned = reference_of(motion, Followed::kPlan);
@@ -151,7 +160,7 @@ TEST_F(Teach, TeacherOnThePlannedMotionRepeatsIt) {
 }
 
 TEST_F(Teach, FollowPlanShowsThePupilThePlannedMotions) {
-  run(teaching("run"));
+  teach_once("run");
   TeachConfig config = teaching("behind");
   apply_setting(config, "school_follow_plan", 1);
   EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
@@ -159,7 +168,7 @@ TEST_F(Teach, FollowPlanShowsThePupilThePlannedMotions) {
 }
 
 TEST_F(Teach, RejectsAPlanOfAnotherSimulation) {
-  run(teaching("run"));
+  teach_once("run");
   rl::tracking::TrackingConfig task;
   task.simulation.friction *= 0.5;
   EXPECT_THROW(read_teacher(followed_plans({out("run") / "plans"}).front(), task), DataError);

@@ -14,8 +14,8 @@ import sys
 import tempfile
 
 try:
-    import numpy  # noqa: F401  the checkers need it
-except ImportError:
+    import python_program
+except ImportError:  # no NumPy, which the checkers need
     sys.exit(77)
 
 MIMICX, CASES, ONLY = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
@@ -29,6 +29,11 @@ failed = 0
 def run(*command):
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True, errors="replace")
     return done.returncode, done.stdout + done.stderr
+
+
+def run_python(*command):
+    status, out, error = python_program.run(*command)
+    return status, out + error
 
 
 def row(path, good, text):
@@ -54,7 +59,7 @@ def motion(path, expected, *options, checker="check_limbs.py", rate=None, never=
     status, text = run(MIMICX, "convert", CASES / path, out, "--force", *options)
     if status != 0:
         return row(path, False, text)
-    status, check = run("/usr/bin/python3", CASES / "tools" / checker, CASES / expected, out,
+    status, check = run_python(CASES / "tools" / checker, CASES / expected, out,
                         *(["--fps", rate] if rate else []))
     high = re.search(r"hips over the lower ankle: ([-\d.]+)", check)
     good = status == 0 and says(text, words) and not any(re.search(word, text) for word in never)
@@ -146,11 +151,11 @@ line(d + "g_T_66.npy", "shape")
 line(d + "results.npy", "convert_video_results")
 if wanted(d):
     for name in ("results", "results_three"):
-        status, text = run("/usr/bin/python3", CONVERTER, CASES / d / f"{name}.npy", OUT / name)
+        status, text = run_python(CONVERTER, CASES / d / f"{name}.npy", OUT / name)
         row(d + name + ", converted", status == 0, text)
     out = OUT / "second.npz"
     run(MIMICX, "convert", OUT / "results_three_person2.npy", out)
-    status, text = run("/usr/bin/python3", CASES / "tools/check_limbs.py", CASES / d / "expected_three_2.npz", out)
+    status, text = run_python(CASES / "tools/check_limbs.py", CASES / d / "expected_three_2.npz", out)
     row(d + "results_three, the second", status == 0, text)
 d = "28-humanml3d-features/"
 for letter in "aec":
@@ -180,7 +185,7 @@ smpl(d + "amass_with_pickled_labels.npz", d + "expected_smpl.npz", words=["pickl
 for name in ("trace_like.npz", "romp_like.npz", "phc_like.pkl", "phalp_like.pkl"):
     line(d + name, "pickle", "convert_video_results", never=["frame rate"])
     if wanted(d):
-        status, text = run("/usr/bin/python3", CONVERTER, CASES / d / name, OUT / (name + ".npz"))
+        status, text = run_python(CONVERTER, CASES / d / name, OUT / (name + ".npz"))
         row(d + name + ", converted", len(text.strip().splitlines()) == 1, text)
 d = "39-mjcf-extreme-bodies/"
 if wanted(d):
@@ -189,7 +194,7 @@ if wanted(d):
     for name, options in models:
         status, text = run(MIMICX, "export-mjcf", OUT / "model.xml", "--force", *options)
         if status == 0:
-            status, text = run("/usr/bin/python3", CASES / "tools/check_mjcf.py", OUT / "model.xml")
+            status, text = run_python(CASES / "tools/check_mjcf.py", OUT / "model.xml")
         row(d + name, status == 0, text)
 print(f"{failed} failed")
 sys.exit(failed > 0)

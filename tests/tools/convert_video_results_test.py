@@ -6,7 +6,6 @@
 import io
 import os
 import pickle
-import subprocess
 import sys
 import tempfile
 import types
@@ -14,10 +13,11 @@ import zipfile
 
 try:
     import numpy as np
+    import python_program
 except ImportError:
     sys.exit(77)
 
-TOOL = sys.argv[1]
+TOOL = os.path.abspath(sys.argv[1])
 FRAMES = 7
 J0 = np.array([0.003, -0.351, 0.012])
 SMPL_J0, MID_HIP = np.array([-0.002, -0.223, 0.028]), np.array([-0.001, -0.086, -0.016])
@@ -51,8 +51,8 @@ POINTS = random.uniform(size=(FRAMES, 17, 3))
 def convert(results, *more):
     if os.path.exists("out.npz"):
         os.remove("out.npz")  # the tool overwrites nothing
-    run = subprocess.run([sys.executable, TOOL, results, "out.npz", *more], capture_output=True, text=True)
-    return run.returncode, run.stderr, dict(np.load("out.npz")) if run.returncode == 0 else None
+    status, _, complaint = python_program.run(TOOL, results, "out.npz", *more)
+    return status, complaint, dict(np.load("out.npz")) if status == 0 else None
 
 
 def check_gvhmr(path):
@@ -202,9 +202,9 @@ def check_several_people():
     for name in os.listdir("."):
         if name.startswith("all"):
             os.remove(name)
-    run = subprocess.run([sys.executable, TOOL, "wham_output.pkl", "all.npz", *more], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
-    lines = run.stdout.splitlines()
+    status, out, complaint = python_program.run(TOOL, "wham_output.pkl", "all.npz", *more)
+    assert status == 0, complaint
+    lines = out.splitlines()
     assert lines == ["all_person0_from5.npz: person 0, frames 5 to 44, smpl, with keypoints",
                      "all_person0_from70.npz: person 0, frames 70 to 114, smpl, with keypoints",
                      "person 0, frames 300 to 304: left out, shorter than 30 frames",
@@ -436,8 +436,8 @@ def check_slahmr():
     for name in os.listdir("."):
         if name.startswith("out_person"):
             os.remove(name)
-    run = subprocess.run([sys.executable, TOOL, "slahmr.npz", "out.npz", "--shortest", "1"], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
+    status, _, complaint = python_program.run(TOOL, "slahmr.npz", "out.npz", "--shortest", "1")
+    assert status == 0, complaint
     for person in (1, 2):
         expect_motion(dict(np.load(f"out_person{person}.npz")), SMPL_J0)
         os.remove(f"out_person{person}.npz")
@@ -519,15 +519,15 @@ def check_multihmr():
 def check_positions_of_mdm_and_sam3d():
     motion = random.normal(size=(2, 22, 3, 60))
     np.save("results.npy", {"motion": motion, "lengths": np.array([60, 41]), "text": ["a", "b"], "num_samples": 2})
-    run = subprocess.run([sys.executable, TOOL, "results.npy", "mdm"], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
+    status, _, complaint = python_program.run(TOOL, "results.npy", "mdm")
+    assert status == 0, complaint
     for sample, length in ((0, 60), (1, 41)):
         assert np.allclose(np.load(f"mdm_person{sample}.npy"), motion[sample].transpose(2, 0, 1)[:length], atol=1e-6)
     points, place_ = random.normal(size=(FRAMES, 70, 3)), np.array([0.1, 0.2, 4.0])
     with open("sam3d.pkl", "wb") as file:
         pickle.dump([[{"pred_keypoints_3d": p, "pred_cam_t": place_}] for p in 0.1 * points], file)
-    run = subprocess.run([sys.executable, TOOL, "sam3d.pkl", "sam3d"], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
+    status, _, complaint = python_program.run(TOOL, "sam3d.pkl", "sam3d")
+    assert status == 0, complaint
     out = np.load("sam3d.npy")
     for body, point in ((1, 9), (5, 12), (7, 13), (12, 69), (16, 5), (19, 8), (20, 62), (21, 41)):
         assert np.allclose(out[:, body], (0.1 * points[:, point] + place_) @ DOWN.T, atol=1e-6), body
@@ -537,17 +537,17 @@ def check_many_results_and_nothing_overwritten():
     for name in ("one.pkl", "two.pkl"):
         with open(name, "wb") as file:
             pickle.dump(GVHMR, file)
-    many = [sys.executable, TOOL, "one.pkl", "two.pkl", "converted"]
-    run = subprocess.run(many, capture_output=True, text=True)
-    assert run.returncode == 0 and sorted(os.listdir("converted")) == ["one.npz", "two.npz"], run.stderr
+    many = TOOL, "one.pkl", "two.pkl", "converted"
+    status, _, complaint = python_program.run(*many)
+    assert status == 0 and sorted(os.listdir("converted")) == ["one.npz", "two.npz"], complaint
     before = open("converted/one.npz", "rb").read()
     os.remove("converted/two.npz")
-    run = subprocess.run(many, capture_output=True, text=True)
-    assert run.returncode == 1 and "not overwritten" in run.stderr and len(run.stderr.splitlines()) == 1, run.stderr
+    status, _, complaint = python_program.run(*many)
+    assert status == 1 and "not overwritten" in complaint and len(complaint.splitlines()) == 1, complaint
     assert open("converted/one.npz", "rb").read() == before and not os.path.exists("converted/two.npz")
     for rate in ("0", "nan", "inf", "-30", "1e9"):
-        run = subprocess.run([sys.executable, TOOL, "one.pkl", "new.npz", "--fps", rate], capture_output=True, text=True)
-        assert run.returncode == 2 and "frames per second" in run.stderr, (rate, run.stderr)
+        status, _, complaint = python_program.run(TOOL, "one.pkl", "new.npz", "--fps", rate)
+        assert status == 2 and "frames per second" in complaint, (rate, complaint)
 
 
 def check_refusals():

@@ -130,7 +130,11 @@ motion::Keypoints detect_keypoints(const SeenMotion& truth, const CameraPath& ca
   keypoints.extrinsics = camera.extrinsics;
   keypoints.uvc.assign(frames, std::vector<Vector3d>(points.size()));
   PerFrame<BodyPoses> seen;
-  for (int t = 0; t < frames; ++t) seen.push_back(pose_between(truth, t - late));
+  PerFrame<double> boxes;
+  for (int t = 0; t < frames; ++t) {
+    seen.push_back(pose_between(truth, t - late));
+    boxes.push_back(box_size(camera.at(t), seen[t]));
+  }
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Offset offset = drawn_offset(preset, seed, k);
     ErrorNoise noise = drawn_noise(preset, seed, k, frames, truth.fps);
@@ -142,12 +146,11 @@ motion::Keypoints detect_keypoints(const SeenMotion& truth, const CameraPath& ca
       const Vector3d joint = p_WB + q_WB * points[k].p_B;
       const Vector3d to_eye = q_WB.conjugate() * (eye - joint).normalized();
       const Vector3d found = joint + q_WB * (offset.limb + offset.view * to_eye);
-      const double box = box_size(view, seen[t]);
       const Eigen::Vector2d error =
           detection_error(preset, noise, t, foreshortening(seen[t], points[k], eye),
                           preset.occlusion > 0.0 && is_hidden(truth.character, seen[t], eye, joint));
-      const Eigen::Vector2d uv = project(view, found).head<2>() + box * error;
-      const double off = (uv - project(view, joint).head<2>()).norm() / box;
+      const Eigen::Vector2d uv = project(view, found).head<2>() + boxes[t] * error;
+      const double off = (uv - project(view, joint).head<2>()).norm() / boxes[t];
       keypoints.uvc[t][k] = {uv.x(), uv.y(), drawn_confidence(preset, noise.confidence[t], off)};
     }
   }

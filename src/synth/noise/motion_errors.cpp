@@ -114,6 +114,10 @@ void disturb_place(const NoisePreset& p, std::uint64_t seed, double fps, const C
 
 void put_on_floor(const NoisePreset& p, const Character& mistaken, const Character& body,
                   const PerFrame<BodyPoses>& truth, EstimatedMotion& motion) {
+  if (p.snap == 0.0) {
+    for (Vector3d& p_root : motion.p_root) p_root.z() += p.height_offset;
+    return;
+  }
   const std::vector<motion::SurfacePoint> points = motion::surface_points(mistaken),
                                           true_points = motion::surface_points(body);
   for (int t = 0; t < motion.frames(); ++t) {

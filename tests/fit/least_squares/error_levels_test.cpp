@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-motion::Clip walk() { return synthetic_clip("walk", 5, 150); }
+motion::Clip walk(std::size_t frames = 75) { return synthetic_clip("walk", 5, frames); }
 
 /// What turns normal errors into those of Student's distribution with four degrees of freedom.
 double tail(Random& random) {
@@ -78,7 +78,7 @@ double mpjpe(const motion::Clip& truth, const motion::Clip& motion) {
 
 TEST(FitLevels, ConvergeFromThreeTimesTooLargeAndTooSmall) {
   constexpr double kSigma = 0.006;
-  const motion::Clip clip = detected(walk(), kSigma, 1.0);
+  const motion::Clip clip = detected(walk(150), kSigma, 1.0);
   for (const double wrong :
        {kSigma / 2.0, 1.5 * kSigma, 4.5 * kSigma}) {  // the right one is 1.5 in the middle
     FitReport report;

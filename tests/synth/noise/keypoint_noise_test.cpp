@@ -75,9 +75,10 @@ TEST(DetectKeypoints, OffsetsAreConstantInTheFrameOfTheirLimbAndTurnInThePicture
 }
 
 TEST(DetectKeypoints, OffsetsThatFollowTheViewAreALinearMapOfItsDirectionInTheLimb) {
+  const motion::Clip still = test::beginning_of("stand", 10);
   test::Spread size;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const Detected d = detected(test::still_truth(), only(&NoisePreset::offset_view, 0.02, seed));
+    const Detected d = detected(still, only(&NoisePreset::offset_view, 0.02, seed));
     const Vector3d eye = test::camera_position(d.keypoints);
     for (int b = 0; b < kBodies; ++b) {  // across the picture: metres at the joint's depth
       const Vector3d p_C = (d.keypoints.extrinsics[0] * d.poses[9].p_WB[b].homogeneous()).head<3>();
@@ -111,11 +112,12 @@ TEST(DetectKeypoints, OffsetsThatFollowTheViewAreALinearMapOfItsDirectionInTheLi
 }
 
 TEST(DetectKeypoints, WanderingAndTailsHaveTheirSizes) {
+  const motion::Clip still = test::beginning_of("stand", 22);
   test::Spread wander;
   std::vector<double> tail;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
-    const Detected slow = detected(test::still_truth(), only(&NoisePreset::wander, 0.5, seed)),
-                   quick = detected(test::still_truth(), only(&NoisePreset::tail, 0.5, seed));
+    const Detected slow = detected(still, only(&NoisePreset::wander, 0.5, seed)),
+                   quick = detected(still, only(&NoisePreset::tail, 0.5, seed));
     for (int b = 0; b < kBodies; ++b) {
       wander.add(100.0 * slow.error(20, b).x());
       tail.push_back(100.0 * std::abs(quick.error(20, b).y()));
@@ -169,7 +171,7 @@ TEST(DetectKeypoints, OcclusionErrorsOnlyAffectHiddenPoints) {
 
 TEST(DetectKeypoints, AreLateOrEarlyByAFractionOfAFrame) {
   // A body that glides: the position of a detection shows its time.
-  motion::Clip glide = test::still_truth();
+  motion::Clip glide = test::beginning_of("stand", 22);
   for (int t = 0; t < glide.frames(); ++t) {
     glide.rotations[t] = glide.rotations[0];
     glide.trans[t] = glide.trans[0] + Vector3d(0.01 * t, 0.0, 0.0);

@@ -40,14 +40,17 @@ inline const motion::Clip& truth_of(const std::string& kind) {
   return entry->second;
 }
 
-/// A second and a half of standing: enough for statistics over many seeds.
+/// The first frames of a motion: few suffice for statistics over many seeds.
+inline motion::Clip beginning_of(const std::string& kind, std::size_t frames) {
+  motion::Clip clip = truth_of(kind);
+  clip.rotations.resize(frames);
+  clip.trans.resize(frames);
+  return clip;
+}
+
+/// A second and a half of standing.
 inline const motion::Clip& still_truth() {
-  static const motion::Clip still = [] {
-    motion::Clip clip = truth_of("stand");
-    clip.rotations.resize(45);
-    clip.trans.resize(45);
-    return clip;
-  }();
+  static const motion::Clip still = beginning_of("stand", 45);
   return still;
 }
 
@@ -80,12 +83,7 @@ inline Vector3d viewing_direction(const motion::Keypoints& k) {
 
 /// A second and a half of walking.
 inline const motion::Clip& short_walk() {
-  static const motion::Clip walk = [] {
-    motion::Clip clip = truth_of("walk");
-    clip.rotations.resize(45);
-    clip.trans.resize(45);
-    return clip;
-  }();
+  static const motion::Clip walk = beginning_of("walk", 45);
   return walk;
 }
 
