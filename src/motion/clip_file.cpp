@@ -430,7 +430,7 @@ NpyArray row_of(const NpyArray& array, std::size_t index) {
 }
 
 /// The archive, or of one whose arrays have a dimension for people in front, (P, T, …), the part of one
-/// person.
+/// person. More people than frames are frames with people, (T, P, …), and refused.
 Npz one_person_of(const Npz& npz, const std::optional<int>& person) {
   const std::string body = found_among(kBody, npz), trans = found_among(kTrans, npz);
   const std::string key = body.empty() ? found_among(kPoses, npz) : body;
@@ -443,6 +443,12 @@ Npz one_person_of(const Npz& npz, const std::optional<int>& person) {
     return npz;
   }
   const std::size_t people = shape[0];
+  if (people > shape[1])
+    throw DataError(npz.path, key, "people first, (people, frames, ...)",
+                    text_of_shape(shape) + ": " + std::to_string(people) + " people in " +
+                        std::to_string(shape[1]) + " frames, or " + std::to_string(shape[1]) +
+                        (shape[1] == 1 ? " person in " : " people in ") + std::to_string(people) +
+                        " frames, whose first two dimensions are to be exchanged");
   const auto place = static_cast<std::size_t>(person.value_or(1));
   if ((people != 1 && !person) || place > people)
     throw DataError(npz.path, key, "one person: --person 1 to " + std::to_string(people),

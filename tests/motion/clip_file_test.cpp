@@ -299,6 +299,15 @@ TEST(ClipFile, OneOfSeveralPeopleIsRead) {
   EXPECT_THROW(clip_from(npz, "a", {30.0, 3}), DataError);
 }
 
+TEST(ClipFile, FramesInFrontOfPeopleAreRefused) {
+  const std::vector<double> zeros(5 * 2 * 72, 0.0);
+  Npz npz;
+  npz.set("poses", NpyArray::from_double({5, 2, 72}, zeros.data()));
+  npz.set("trans", NpyArray::from_double({5, 2, 3}, zeros.data()));
+  expect_refusal(npz, "5 people in 2 frames, or 2 people in 5 frames");
+  EXPECT_THROW(clip_from(npz, "a", {30.0, 1}), DataError) << "poses of different people";
+}
+
 TEST(ClipFile, WhatIsNotUsedNeedNotBeFinite) {
   Npz npz = amass();
   const double nan = std::numeric_limits<double>::quiet_NaN();
