@@ -151,7 +151,7 @@ SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::pat
   SkeletonMotion motion;
   motion.name = path.stem().string();
   motion.path = path.string();
-  motion.metric_y_up = true;
+  motion.metric_up = 'y';
   for (const HumanoidJoint& joint : humanoid())
     motion.joints.push_back({joint.name, joint.parent, joint.offset, joint.numbers == 0});
   std::vector<double> durations;

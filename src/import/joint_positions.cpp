@@ -211,7 +211,7 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   motion.name = name;
   motion.path = path;
   motion.fps = kPositionsFps;
-  motion.metric_y_up = features;
+  motion.metric_up = features ? 'y' : 0;
   motion.joints = joints_of(character, frames, path);
   for (const Positions& p : frames) {
     const Rotations q = rotations_of(character, p);

@@ -75,9 +75,9 @@ void drop_t_pose(Source& source, motion::Clip& clip) {
 char find_up(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
              motion::Clip& clip) {
   std::string why = "given by the user";
-  char up = config.up.value_or('y');
-  if (!config.up && motion.metric_y_up) {
-    why = "defined by the format";
+  char up = config.up.value_or(motion.metric_up);
+  if (!config.up && motion.metric_up != 0) {
+    why = up == 'y' ? "defined by the format" : "the body's, not the format's";
   } else if (!config.up) {
     const UpDecision found = decide_up(source.frames, landmarks_of(rest_pose(motion), source.map), 'y');
     up = found.axis;
@@ -97,7 +97,7 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
         sentence("unit %.6g m: given by the user; legs are %.2f m long", config.scale, config.scale * leg));
     return config.scale;
   }
-  if (motion.metric_y_up) return 1.0;
+  if (motion.metric_up != 0) return 1.0;
   std::vector<std::string> names;
   for (const SkeletonJoint& joint : motion.joints) names.push_back(joint.name);
   const UnitDecision unit = decide_unit(
