@@ -430,6 +430,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
     settle_up(config, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
   }
   const double fps = clip.fps;
+  if (!config.fps) require_no_time_step(path.string(), fps);
   settle_fps(config, believed, clip);
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_scene(config, believed, clip);

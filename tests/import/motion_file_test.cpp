@@ -190,6 +190,24 @@ TEST(ReadMotion, FewOrDisagreeingFallsOnlySuggestAFrameRate) {
   }
 }
 
+TEST(ReadMotion, ATimeStepIsNoFrameRate) {
+  motion::Clip clip = foreign("walk");
+  for (const double rate : {24.0, 30.0, 120.0}) {
+    clip.fps = 1.0 / rate;
+    try {
+      written_and_read(clip);
+      FAIL() << rate;
+    } catch (const DataError& error) {
+      const std::string want = "expected a frame rate, found " + short_number(clip.fps) +
+                               ", which is a time step: --fps " + short_number(rate);
+      EXPECT_NE(std::string(error.what()).find(want), std::string::npos) << error.what();
+    }
+    ReadConfig asked;
+    asked.fps = rate;
+    EXPECT_EQ(written_and_read(clip, asked).fps, rate);
+  }
+}
+
 TEST(ReadMotion, WarnsOfInhumanSpeeds) {
   motion::Clip clip = foreign("walk");
   clip.fps = 300.0;
