@@ -22,6 +22,7 @@
 #include "import/evidence/angle_unit.h"
 #include "import/evidence/frame_rate.h"
 #include "import/evidence/scene_lift.h"
+#include "import/evidence/sides.h"
 #include "import/evidence/translation_unit.h"
 #include "import/evidence/up_axis.h"
 #include "import/joint_positions.h"
@@ -428,6 +429,9 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
     choose_body(config, clip);
     settle_scale(config, believed, clip);
     settle_up(config, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
+    if (!believed && bends_backwards(clip))
+      clip.warnings.emplace_back(
+          "elbows or knees bend backwards: are left and right exchanged, or the world left-handed?");
   }
   const double fps = clip.fps;
   if (!config.fps) require_no_time_step(path.string(), fps);
