@@ -223,9 +223,8 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
       rotation.push_back(parent < 0 ? q[b] : (q[parent].conjugate() * q[b]).normalized());
     }
   }
-  motion.decisions.emplace_back(features
-                                    ? "frame rate: 20 fps, that of HumanML3D; --fps overrides"
-                                    : "frame rate: 20 fps, usual for motion generators; --fps overrides");
+  motion.decisions.emplace_back(features ? "frame rate: 20 fps, that of HumanML3D; --fps overrides"
+                                         : kAssumedRate);
   return motion;
 }
 

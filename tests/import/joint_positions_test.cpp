@@ -68,6 +68,22 @@ TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
   EXPECT_EQ(clip.fps, 30.0);
 }
 
+TEST(JointPositions, TheFrameRateIsSaidToBeAssumed) {
+  const NpyArray array = positions_of(truth("walk"));
+  const auto decides = [](const motion::Clip& clip, const std::string& line) {
+    return std::count(clip.decisions.begin(), clip.decisions.end(), line) == 1;
+  };
+  const motion::Clip clip = read_positions(array);
+  EXPECT_EQ(clip.summary.at(0),
+            "joint positions: 20 frames per second (assumed: --fps overrides), y up, metres");
+  EXPECT_TRUE(decides(clip, "frame rate: 20 fps, as assumed"));
+  ReadConfig config;
+  config.fps = 30.0;
+  const motion::Clip asked = read_positions(array, config);
+  EXPECT_EQ(asked.summary.at(0), "joint positions: 30 frames per second, y up, metres");
+  EXPECT_TRUE(decides(asked, "frame rate: 30 fps, as asked for"));
+}
+
 TEST(JointPositions, HumanMl3dFeaturesGiveTheSameMotion) {
   for (const char* kind : {"walk_turn", "turn_in_place"}) {
     const motion::Clip exact = truth(kind), clip = read_positions(features_of(positions_of(exact)));
