@@ -88,9 +88,13 @@ std::optional<std::string> member_text(const Npz& npz, const std::string& key) {
 /// The file's frame rate. Where it has several that differ, the first counts, with a warning.
 double read_fps(const Npz& npz, const std::optional<double>& given, Clip& clip) {
   std::optional<double> rate;
-  std::string key;
+  std::string key, found = "none";
   for (const std::string& name : kRates) {
-    if (!npz.has(name) || npz.at(name).type == NpyArray::Type::kText) continue;
+    if (!npz.has(name)) continue;
+    if (npz.at(name).type == NpyArray::Type::kText) {
+      found = "text in " + name;
+      continue;
+    }
     const Member fps(npz, name);
     const bool sound = fps.values.size() == 1 && fps.values[0] > 0.0 && fps.values[0] <= kMaxFps;
     if (!sound && !given)
@@ -104,7 +108,7 @@ double read_fps(const Npz& npz, const std::optional<double>& given, Clip& clip) 
   }
   if (!rate && !given)
     throw DataError(npz.path, "", "a frame rate (mocap_framerate, mocap_frame_rate or fps; --fps gives one)",
-                    "none");
+                    found);
   return rate ? *rate : *given;
 }
 
@@ -148,9 +152,14 @@ void keep_other_columns(const Member& poses, std::size_t used, Clip& clip) {
                   names.empty() ? "no members at all" : names);
 }
 
-/// Fails where a member has rotation matrices.
+/// Fails where a member has rotation matrices, quaternions or the first two columns of matrices ("6D").
 void expect_axis_angle(const Member& member) {
   const auto& shape = member.array.shape;
+  for (const auto& [numbers, name] :
+       {std::pair<std::size_t, const char*>{4, "quaternions"}, {6, "6D rotations"}})
+    for (const std::size_t joints : {1, 21, 22, 23, 24, 52, 55})
+      if (member.columns() == numbers * joints && (shape.size() == 2 || shape.back() == numbers))
+        member.fail("rotations as axis-angle", member.shape() + ", " + name);
   if (shape.size() >= 3 && shape[shape.size() - 1] == 3 && shape[shape.size() - 2] == 3 && shape.size() != 3)
     member.fail("rotations as axis-angle", member.shape() + ", rotation matrices");
 }

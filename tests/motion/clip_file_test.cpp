@@ -196,6 +196,8 @@ TEST(ClipFile, ReadsBothFrameRateKeysAndRequiresOne) {
     npz.set("mocap_frame_rate", NpyArray::scalar(bad));
     expect_refusal(npz, "frame rate");
   }
+  npz.set("mocap_frame_rate", NpyArray::scalar_text("30"));
+  expect_refusal(npz, "found text in mocap_frame_rate");
 }
 
 TEST(ClipFile, TheGivenRateStandsInForNoneAndForABadOne) {
@@ -275,6 +277,16 @@ TEST(ClipFile, JointsOfThreeNumbersAreTheFlatLayout) {
   const std::vector<double> matrices(3 * 22 * 9, 0.0);
   npz.set("poses", NpyArray::from_double({3, 22, 3, 3}, matrices.data()));
   expect_refusal(npz, "rotation matrices");
+  for (const auto& [shape, name] : {std::pair(std::vector<std::size_t>{3, 24, 4}, "quaternions"),
+                                    {{3, 96}, "quaternions"},
+                                    {{3, 24, 6}, "6D rotations"},
+                                    {{3, 144}, "6D rotations"}}) {
+    npz.set("poses", NpyArray::from_double(shape, matrices.data()));
+    expect_refusal(
+        npz, std::string("expected rotations as axis-angle, found shape (3, ") +
+                 (shape.size() == 3 ? "24, " + std::to_string(shape[2]) : std::to_string(shape[1])) + "), " +
+                 name);
+  }
 }
 
 TEST(ClipFile, OneOfSeveralPeopleIsRead) {
