@@ -84,7 +84,7 @@ Row read_row(TextInput& in, std::size_t frame) {
   for (int c = 0; c < kColumns; ++c) {
     if (c > 0) in.expect(",");
     double& value = row[c];
-    value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame + 1));
+    value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame));
     if (std::abs(value) > kMaxFrameValue) in.fail_with("a number within ±10000", text_of(value));
   }
   in.expect("]");

@@ -112,6 +112,14 @@ TEST(JointPositions, RejectInvalidArraysInOneLine) {
   values[100] = std::nan("");
   EXPECT_THROW(read_positions(NpyArray::from_double(positions.shape, values.data())), DataError);
   EXPECT_THROW(read_positions(NpyArray::from_double({0, kBodies, 3}, values.data())), DataError);
+  values = positions.to_double();
+  std::copy_n(&values[3 * (5 * kBodies + kLeftElbow)], 3, &values[3 * (5 * kBodies + kLeftWrist)]);
+  try {
+    read_positions(NpyArray::from_double(positions.shape, values.data()));
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("frame 5: expected"), std::string::npos) << error.what();
+  }
   Random random(3);
   for (double& value : values) value = random.uniform(-1.0, 1.0);
   try {

@@ -52,7 +52,7 @@ void check_bones(const SkeletonMotion& motion, const Source& source) {
   for (int t = 0; t < source.frames.count(); ++t) {
     const auto check = [&](int from, int to) {
       if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
-        throw DataError(motion.path, "frame " + std::to_string(t + 1),
+        throw DataError(motion.path, "frame " + std::to_string(t),
                         body_in_words(from) + " and " + body_in_words(to) + " at different places",
                         "both at the same place");
     };
@@ -348,7 +348,7 @@ motion::Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config
     bool finite = clip.trans[t].allFinite();
     for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
     if (!finite)
-      throw DataError(motion.path, "frame " + std::to_string(t + 1), "a pose that a body can take",
+      throw DataError(motion.path, "frame " + std::to_string(t), "a pose that a body can take",
                       "a degenerate one");
   }
   if (report != nullptr) *report = local;
