@@ -68,6 +68,18 @@ TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
   EXPECT_EQ(clip.fps, 30.0);
 }
 
+TEST(JointPositions, JointsAtTheOriginGiveAWarning) {
+  const NpyArray array = positions_of(truth("walk"));
+  EXPECT_TRUE(skeleton_of_positions(array, "a", "a.npy").warnings.empty());
+  std::vector<double> values = array.to_double();
+  for (const std::size_t t : {10, 11, 14}) std::fill_n(&values[3 * (t * kBodies + kLeftWrist)], 3, 0.0);
+  const auto warnings =
+      skeleton_of_positions(NpyArray::from_double(array.shape, values.data()), "a", "a.npy").warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "left wrist at (0, 0, 0) in 3 of " + std::to_string(array.shape[0]) +
+                             " frames, last in frame 14: was it not seen? It is taken to be there");
+}
+
 TEST(JointPositions, TheFrameRateIsSaidToBeAssumed) {
   const NpyArray array = positions_of(truth("walk"));
   const auto decides = [](const motion::Clip& clip, const std::string& line) {
