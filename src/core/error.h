@@ -11,6 +11,10 @@
 #include <stdexcept>
 #include <string>
 
+#ifdef __cpp_exceptions
+#include <filesystem>
+#endif
+
 namespace mimicx {
 
 class DataError : public std::runtime_error {
@@ -34,6 +38,8 @@ template <class Error>
 
 /// What an error says to a user: its message; the standard library's own names of errors in words.
 inline std::string reason_of(const std::exception& error) {
+  if (const auto* of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return of_file->path1().string() + ": " + of_file->code().message();
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "not enough memory" : error.what();
 }
 #else

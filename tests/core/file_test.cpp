@@ -70,6 +70,8 @@ TEST(WriteFile, AnInterruptLeavesNoTemporaryFile) {
 TEST(Reason, OfTheStandardLibrarysErrorsIsInWords) {
   EXPECT_EQ(reason_of(std::bad_alloc()), "not enough memory");
   EXPECT_EQ(reason_of(std::runtime_error("why")), "why");
+  EXPECT_EQ(reason_of(fs::filesystem_error("cannot", "a/b", make_error_code(std::errc::filename_too_long))),
+            "a/b: File name too long");
 }
 
 TEST(ReadFile, ErrorStatesTheReason) {
