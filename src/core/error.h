@@ -17,6 +17,13 @@
 
 namespace mimicx {
 
+/// A file's name for a message of one line: control characters become '?'.
+inline std::string on_one_line(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return name;
+}
+
 class DataError : public std::runtime_error {
  public:
   /// @param path      the file, or a short name of the data where there is no file
@@ -25,8 +32,8 @@ class DataError : public std::runtime_error {
   /// @param found     what was found instead
   DataError(const std::string& path, const std::string& place, const std::string& expected,
             const std::string& found)
-      : std::runtime_error(path + (place.empty() ? "" : ": " + place) + ": expected " + expected +
-                           ", found " + found) {}
+      : std::runtime_error(on_one_line(path) + (place.empty() ? "" : ": " + place) + ": expected " +
+                           expected + ", found " + found) {}
 };
 
 #ifdef __cpp_exceptions

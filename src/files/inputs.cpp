@@ -52,9 +52,9 @@ class Folder {
   /// under another name)"
   void tell_skipped(std::ostream& messages) const {
     if (skipped_.empty()) return;
-    messages << root_.string() << ": skipped: ";
+    messages << on_one_line(root_.string()) << ": skipped: ";
     for (std::size_t i = 0; i < std::min(kNamesSaid, skipped_.size()); ++i)
-      messages << (i > 0 ? ", " : "") << skipped_[i];
+      messages << (i > 0 ? ", " : "") << on_one_line(skipped_[i]);
     if (skipped_.size() > kNamesSaid) messages << " and " << skipped_.size() - kNamesSaid << " more";
     messages << " (no motions, made by an earlier run, or read under another name)\n";
   }
@@ -117,7 +117,7 @@ std::vector<MotionInput> each_once(const std::vector<MotionInput>& files, std::o
     if (first)
       once.push_back(file);
     else if (messages != nullptr && same->second != file.path)
-      *messages << file.path << ": skipped: it is " << same->second << '\n';
+      *messages << on_one_line(file.path + ": skipped: it is " + same->second) << '\n';
   }
   return once;
 }

@@ -67,6 +67,10 @@ TEST(WriteFile, AnInterruptLeavesNoTemporaryFile) {
   EXPECT_EQ(read_file(folder / "b.csv"), "whole") << "what is finished stays";
 }
 
+TEST(DataErrors, AreOneLineWhateverTheFileIsCalled) {
+  EXPECT_STREQ(DataError("a\nb\x1b.npz", "line 1", "x", "y").what(), "a?b?.npz: line 1: expected x, found y");
+}
+
 TEST(Reason, OfTheStandardLibrarysErrorsIsInWords) {
   EXPECT_EQ(reason_of(std::bad_alloc()), "not enough memory");
   EXPECT_EQ(reason_of(std::runtime_error("why")), "why");

@@ -51,6 +51,14 @@ TEST_F(FindMotions, SkipsAndListsOtherFilesAndRunOutputs) {
                                 "earlier run, or read under another name)\n");
 }
 
+TEST_F(FindMotions, ALineBreakInANameBreaksNoMessage) {
+  touch("in/a.npz");
+  touch("in/x\ny.txt");
+  std::ostringstream messages;
+  find_motions({path("in")}, {}, &messages);
+  EXPECT_NE(messages.str().find("skipped: x?y.txt (no"), std::string::npos) << messages.str();
+}
+
 TEST_F(FindMotions, CountsManySkippedFiles) {
   touch("in/a.npz");
   for (int k = 100; k < 130; ++k) touch("in/" + std::to_string(k) + ".txt");
