@@ -261,7 +261,7 @@ TEST(MarkerJoints, TimesThatContradictTheRateGiveAWarning) {
   const motion::Clip clip = motion_from(text, "walk.trc");
   EXPECT_EQ(clip.fps, 60.0);
   EXPECT_EQ(clip.warnings.at(0),
-            "two frame rates: DataRate says 60, the Time column 30; the first is used (--fps 30 overrides)");
+            "two frame rates: DataRate says 60, the Time column 30; DataRate counts without --fps 30");
 }
 
 TEST(MarkerJoints, UnitsThatNoBodyHasAreRefused) {

@@ -231,7 +231,7 @@ std::vector<std::string> rate_warnings(const Markers& markers) {
   if (!(markers.seconds > 0.0) || std::abs(markers.seconds - said) < kSame * said + kLastPlace) return {};
   const std::string other = short_number(steps / markers.seconds);
   return {"two frame rates: DataRate says " + short_number(markers.fps) + ", the Time column " + other +
-          "; the first is used (--fps " + other + " overrides)"};
+          "; DataRate counts without --fps " + other};
 }
 
 }  // namespace
