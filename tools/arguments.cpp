@@ -194,6 +194,19 @@ Option Command::optional_files(const std::string& name, std::vector<std::string>
       help));
 }
 
+Option Command::folder(const std::string& name, std::filesystem::path& path, const std::string& help) {
+  return Option(add_single(
+      app_, name, "PATH",
+      [&path, name](const std::string& text) {
+        require_path(name, text);
+        std::error_code none;
+        if (std::filesystem::exists(text, none) && !std::filesystem::is_directory(text, none))
+          refuse(name, "a folder", text);
+        path = text;
+      },
+      help));
+}
+
 Option Command::path(const std::string& name, std::filesystem::path& path, const std::string& help) {
   return Option(add_single(
       app_, name, "PATH",

@@ -79,6 +79,8 @@ class Command {
   Option optional_files(const std::string& name, std::vector<std::string>& files, const std::string& help);
   /// A path; not empty.
   Option path(const std::string& name, std::filesystem::path& path, const std::string& help);
+  /// The path of a folder, which may be missing.
+  Option folder(const std::string& name, std::filesystem::path& path, const std::string& help);
   /// The path of an existing file.
   Option existing(const std::string& name, std::filesystem::path& path, const std::string& help);
   /// One or more paths after one name.

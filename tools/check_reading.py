@@ -83,7 +83,7 @@ def mirrored_bvh(text):
     return changed + "MOTION" + rest
 
 
-def altered_npz(path, turn=None, scale=1.0, rate=1.0):
+def altered_npz(path, turn=None, scale=1.0, rate=1.0, exchanged=False):
     from_vector = lambda v: rotation(np.asarray(v, float))
     data = {k: v for k, v in np.load(path, allow_pickle=True).items() if v.dtype != object}
     poses, trans = np.array(data["poses"], float), np.array(data["trans"], float)
@@ -92,6 +92,13 @@ def altered_npz(path, turn=None, scale=1.0, rate=1.0):
         roots = [turn @ from_vector(v) for v in poses[:, :3]]
         poses[:, :3] = [vector(m) for m in roots]
         trans = (trans + j0) @ turn.T - j0
+    if exchanged:
+        for name in ("root_orient", "pose_body"):  # read in place of the poses
+            data.pop(name, None)
+        joints = poses[:, :66].reshape(-1, 22, 3)
+        left = np.array([1, 4, 7, 10, 13, 16, 18, 20])
+        joints[:, [*left, *left + 1]] = joints[:, [*left + 1, *left]]
+        poses[:, :66] = joints.reshape(-1, 66)
     data["poses"], data["trans"] = poses, trans * scale
     key = "mocap_framerate" if "mocap_framerate" in data else "mocap_frame_rate"
     data[key] = np.array(float(data[key]) * rate)
@@ -154,6 +161,8 @@ def jobs_of(path):
                 yield "unit (npz)", name, None, altered_npz(path, scale=1 / unit)
         for factor in (0.5, 1, 2, 4):
             yield "rate (npz)", f"{factor:g} times", factor, altered_npz(path, rate=factor)
+        yield "sides (npz)", "right", None, path
+        yield "sides (npz)", "exchanged", None, altered_npz(path, exchanged=True)
 
 
 def unit_of(text):
@@ -199,8 +208,8 @@ def judge(mimicx, path, rule, truth, extra, content, folder):
         flew = "flight" in text
         truth = f"{truth}, {'flights' if flew else 'no flights'}"
         return rule, truth, found == wanted, warned, f"{path.name} {found}"
-    elif rule == "sides":
-        found = "exchanged" if "left and right exchanged?" in text else "right"
+    elif rule.startswith("sides"):
+        found = "exchanged" if "left and right exchanged" in text else "right"
     return rule, truth, found == truth, warned, f"{path.name}: {truth} taken for {found}"
 
 

@@ -519,12 +519,17 @@ def cameras(turn, pelvis, pelvis_camera, frames, options):
     return out
 
 
+def rate_of(track, options):
+    """Frames per second: those asked for, those of the results, or 30."""
+    return options.fps or getattr(track, "fps", None) or 30.0
+
+
 def motion_of(track, first, last, points, intrinsics, options):
     """Members of the npz for a piece of a track."""
     pose, model = track.pose[first:last], track.model
     root, pelvis = matrices(pose[:, :3]), track.pelvis[first:last] @ Y_TO_Z.T
     out = {"poses": np.hstack([vectors(Y_TO_Z @ root), pose[:, 3:]]), "trans": pelvis - J0[model],
-           "betas": track.betas[0], "mocap_framerate": getattr(track, "fps", None) or options.fps, "body_model": model, "gender": "neutral"}
+           "betas": track.betas[0], "mocap_framerate": rate_of(track, options), "body_model": model, "gender": "neutral"}
     if points is None:
         return out
     turn = matrices(track.root_camera[first:last]) @ root.transpose(0, 2, 1) @ Y_TO_Z.T
@@ -565,6 +570,7 @@ def files_of(results, base, options, parser):
             parser.error("--keypoints are for results with SMPL's parameters")
         points = keypoints_of(options.keypoints, data, person, track.frames) if options.keypoints else None
         intrinsics = intrinsics_of(track, options.size, parser) if options.keypoints else None
+        assumed = "" if options.fps or getattr(track, "fps", None) else ", 30 fps assumed (--fps)"
         pieces = track.pieces()
         for first, last in pieces:
             begin, end = track.frames[first], track.frames[last - 1]
@@ -575,11 +581,12 @@ def files_of(results, base, options, parser):
             name = base + (f"_person{person}" if len(tracks) > 1 else "") + (
                 f"_from{begin}" if len(pieces) > 1 else "") + (".npy" if positions else ".npz")
             if positions:
-                fps = track.fps or options.fps or 30.0
+                fps = rate_of(track, options)
                 hint = "" if fps == 20.0 else f"; read it with: mimicx ... --fps {fps:g}"
-                files.append((name, f"{what}, {track.model}{hint}", track.positions[first:last]))
+                files.append((name, f"{what}, {track.model}{assumed}{hint}", track.positions[first:last]))
             else:
-                files.append((name, f"{what}, {track.model}" + (", with keypoints" if options.keypoints else ""),
+                keypoints = ", with keypoints" if options.keypoints else ""
+                files.append((name, f"{what}, {track.model}{keypoints}{assumed}",
                               motion_of(track, first, last, points, intrinsics, options)))
     if not any(name for name, _, _ in files):
         raise Wrong(results, "a person" + (f" called {options.person}" if options.person is not None else ""), "none")
@@ -600,7 +607,7 @@ def main():
     camera.add_argument("--moving", action="store_true", help="it moved, and nothing else is known")
     parser.add_argument("--shortest", type=int, default=30, metavar="FRAMES", help="pieces that are shorter are left "
                         "out (default: 30)")
-    parser.add_argument("--fps", type=a_rate, default=30.0, help="of the video (default: 30)")
+    parser.add_argument("--fps", type=a_rate, help="of the video (default: that of the results, or 30, which is said)")
     a = parser.parse_args()
     if a.keypoints and len(a.results) > 1:
         parser.error("--keypoints belong to one result")

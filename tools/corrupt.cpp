@@ -83,7 +83,7 @@ void declare_corrupt(CommandLine& line) {
                "mimicx corrupt walk.bvh --out bench --noise gvhmr,drift=0 --camera moving --seed 3",
                "A motion's errors depend on the seed and its name alone, not on the other files.");
   command.files("FILE", a->inputs, "clean motions and folders of them");
-  command.path("--out", a->out, "folder to write to").required();
+  command.folder("--out", a->out, "folder to write to").required();
   command.list("--noise", a->noise, "PRESET,NAME=VALUE...",
                "preset of the noise model: independent (default), gvhmr, vibe, or none for exact motion; "
                "then single amplitudes after commas: independent,stature=0,swap_rate=0 "

@@ -159,7 +159,6 @@ void declare_evaluate(CommandLine& line) {
   command
       .paths("--motions", a->motions,
              "motions to score: a folder, or one file; several are compared by means over the motions that "
-             "that "
              "all of them have")
       .required();
   Option gate = command.texts("--fail-above", a->fail_above, "NAME=VALUE",

@@ -112,7 +112,7 @@ void declare_fit(CommandLine& line) {
                "mimicx fit DIR --out fitted             # the fit alone, no simulation\n"
                "mimicx fit DIR --out planted --poses    # without keypoints: feet, floor, balance");
   command.files("FILE", a->inputs, "motions and folders of them");
-  command.path("--out", a->out, "folder for the fitted motions").required();
+  command.folder("--out", a->out, "folder for the fitted motions").required();
   add_json(command, a->json);
   add_read_arguments(command, a->read);
   command.flag("--poses", a->poses,

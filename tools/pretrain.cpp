@@ -37,7 +37,7 @@ void declare_pretrain(CommandLine& line) {
       "printed: the paper's method as printed, without our additions; it changes defaults as `mimicx "
       "config` lists them");
   command.files("DIR", a->config.inputs, "motions and folders of them");
-  command.path("--out", a->config.out, "folder of the options; the same command continues it").required();
+  command.folder("--out", a->config.out, "folder of the options; the same command continues it").required();
   command.number("--samples", a->config.training.samples, kFromZero,
                  "training budget of all options together, in character steps");
   add_cluster_arguments(command, a->config.clusters);

@@ -44,7 +44,7 @@ void declare_run(CommandLine& line) {
                "mimicx run DIR --out out/all                                               # hours\n"
                "mimicx run DIR --out out/try --pretrain-samples 1M --budget-samples 200k   # a quick test");
   command.file("DIR", a->in, "folder of motions");
-  command.path("--out", a->out, "folder of the two stages: options/ and clean/").required();
+  command.folder("--out", a->out, "folder of the two stages: options/ and clean/").required();
   command.number("--pretrain-samples", a->pretrain.training.samples, kFromZero,
                  "training budget of all options together, in character steps");
   add_cluster_arguments(command, a->pretrain.clusters);

@@ -74,7 +74,7 @@ void for_each_setting(const std::vector<std::string>& settings,
 
 void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more) {
   command.files("FILE", run.inputs, "motions and folders of them");
-  command.path(
+  command.folder(
       "--out", run.out,
       "folder of the run; the same command continues it; default: NAME.mimicx beside "
       "every input, with its clean motion as NAME.clean.EXT. Its clean/ is for trainers and viewers of "

@@ -146,7 +146,7 @@ void declare_synth(CommandLine& line) {
                "mimicx synth --out set                                  # one of each kind\n"
                "mimicx synth --out set --kinds walk,jump --clips 20     # two kinds, ten of each");
   synth::SynthSetConfig& set = a->set;
-  const Option out = command.path("--out", a->out, "folder to write to");
+  const Option out = command.folder("--out", a->out, "folder to write to");
   command.number("--clips", set.clips, kFromOne,
                  "number of motions, cycling through the kinds; default: one of each kind");
   command.some_of("--kinds", set.kinds, selections(),

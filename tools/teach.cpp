@@ -40,7 +40,7 @@ void declare_teach(CommandLine& line) {
   run::RunConfig& run = a->config.planning.run;
   command.optional_files("FILE", run.inputs, "motions and folders of them, to plan first");
   command.texts("--plans", a->config.plans, "DIR", "folder of a run of `mimicx plan --gains`; repeatable");
-  command.path("--out", a->config.out, "folder of the options; the same command continues it").required();
+  command.folder("--out", a->config.out, "folder of the options; the same command continues it").required();
   command.number("--clusters", a->config.clusters.clusters, kFromOne, "number of options");
   add_read_arguments(command, run.read);
   add_fit_arguments(command, run);

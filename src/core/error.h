@@ -11,7 +11,18 @@
 #include <stdexcept>
 #include <string>
 
+#ifdef __cpp_exceptions
+#include <filesystem>
+#endif
+
 namespace mimicx {
+
+/// A file's name for a message of one line: control characters become '?'.
+inline std::string on_one_line(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return name;
+}
 
 class DataError : public std::runtime_error {
  public:
@@ -21,8 +32,8 @@ class DataError : public std::runtime_error {
   /// @param found     what was found instead
   DataError(const std::string& path, const std::string& place, const std::string& expected,
             const std::string& found)
-      : std::runtime_error(path + (place.empty() ? "" : ": " + place) + ": expected " + expected +
-                           ", found " + found) {}
+      : std::runtime_error(on_one_line(path) + (place.empty() ? "" : ": " + place) + ": expected " +
+                           expected + ", found " + found) {}
 };
 
 #ifdef __cpp_exceptions
@@ -34,6 +45,8 @@ template <class Error>
 
 /// What an error says to a user: its message; the standard library's own names of errors in words.
 inline std::string reason_of(const std::exception& error) {
+  if (const auto* of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return of_file->path1().string() + ": " + of_file->code().message();
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "not enough memory" : error.what();
 }
 #else

@@ -1,6 +1,7 @@
 #include "files/inputs.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -38,23 +39,34 @@ class Folder {
     if (record::holds_run(root)) return;
     look_into(root);
     std::sort(files_.begin(), files_.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+    std::erase_if(files_, [&](const MotionInput& file) {
+      const auto [same, first] = seen_.emplace(whole_path(file.path), inside(file.path));
+      if (!first) skipped_.push_back(inside(file.path) + " is " + same->second);
+      return !first;
+    });
     std::sort(skipped_.begin(), skipped_.end());
   }
   const std::vector<MotionInput>& files() const { return files_; }
 
-  /// "in: skipped: notes.txt, walk.clean.npz (no motions, or made by an earlier run)"
+  /// "in: skipped: notes.txt, walk.clean.npz, b.npz is a.npz (no motions, made by an earlier run, or read
+  /// under another name)"
   void tell_skipped(std::ostream& messages) const {
     if (skipped_.empty()) return;
-    messages << root_.string() << ": skipped: ";
+    messages << on_one_line(root_.string()) << ": skipped: ";
     for (std::size_t i = 0; i < std::min(kNamesSaid, skipped_.size()); ++i)
-      messages << (i > 0 ? ", " : "") << skipped_[i];
+      messages << (i > 0 ? ", " : "") << on_one_line(skipped_[i]);
     if (skipped_.size() > kNamesSaid) messages << " and " << skipped_.size() - kNamesSaid << " more";
-    messages << " (no motions, or made by an earlier run)\n";
+    messages << " (no motions, made by an earlier run, or read under another name)\n";
   }
 
  private:
   void look_into(const std::filesystem::path& folder) {
-    if (!seen_.insert(whole_path(folder)).second) return;  // links may be circular
+    const auto [same, first] =
+        seen_.emplace(whole_path(folder), folder == root_ ? "." : inside(folder) + "/");
+    if (!first) {  // links may be circular
+      skipped_.push_back(inside(folder) + "/ is " + same->second);
+      return;
+    }
     std::error_code error;
     std::filesystem::directory_iterator at(folder, error);
     if (error) files_.push_back({folder.string(), inside(folder)});  // reading it reports the error
@@ -77,7 +89,7 @@ class Folder {
   }
 
   std::filesystem::path root_, out_;
-  std::set<std::filesystem::path> seen_;
+  std::map<std::filesystem::path, std::string> seen_;  ///< files and folders, with the names they are read by
   std::vector<MotionInput> files_;
   std::vector<std::string> skipped_;
 };
@@ -96,12 +108,17 @@ std::string tidy(const std::string& typed) {
   return path.empty() ? typed : path.string();
 }
 
-/// Every file once, as it was spelled first.
-std::vector<MotionInput> each_once(const std::vector<MotionInput>& files) {
+/// Every file once, as it was spelled first. Other spellings are links and are said.
+std::vector<MotionInput> each_once(const std::vector<MotionInput>& files, std::ostream* messages) {
   std::vector<MotionInput> once;
-  std::set<std::filesystem::path> seen;
-  for (const MotionInput& file : files)
-    if (seen.insert(whole_path(file.path)).second) once.push_back(file);
+  std::map<std::filesystem::path, std::string> seen;
+  for (const MotionInput& file : files) {
+    const auto [same, first] = seen.emplace(whole_path(file.path), file.path);
+    if (first)
+      once.push_back(file);
+    else if (messages != nullptr && same->second != file.path)
+      *messages << on_one_line(file.path + ": skipped: it is " + same->second) << '\n';
+  }
   return once;
 }
 
@@ -128,7 +145,7 @@ std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
     if (folder.files().empty()) files.push_back(itself);
     files.insert(files.end(), folder.files().begin(), folder.files().end());
   }
-  return each_once(files);
+  return each_once(files, messages);
 }
 
 std::vector<std::string> paths_of(const std::vector<MotionInput>& inputs) {

@@ -2,7 +2,7 @@
 ///
 /// A folder means all motion files in it and in its subfolders, sorted by path. These are skipped, and a
 /// message lists them: other files, clean copies (NAME.clean.EXT), folders of earlier runs, the output folder
-/// of the command, and AMASS's files of body shapes (shape.npz, …_stagei.npz).
+/// of the command, AMASS's files of body shapes (shape.npz, …_stagei.npz), and links to what is read already.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,8 @@ struct MotionInput {
 /// A file that is given twice, in whatever spelling, is listed once. A folder without motion files, or an
 /// unreadable one, is listed itself: reading it then reports the error.
 /// @param out       folder that the command writes to; empty: none
-/// @param messages  gets a line per folder that lists the skipped files; null: no message
+/// @param messages  gets a line per folder that lists the skipped files, and one per link to a file that is
+///                  listed; null: no message
 /// @throws DataError if the only input is a folder without motion files
 std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
                                       const std::filesystem::path& out = {},

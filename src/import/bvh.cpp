@@ -167,7 +167,7 @@ void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, do
     double value = 0.0;
     if (word.empty() || !parse_number(word, value) || std::abs(value) > kMaxChannelValue) {
       const std::string place = "number " + std::to_string(c + 1) + " of the " + std::to_string(count) +
-                                " of frame " + std::to_string(frame + 1);
+                                " of frame " + std::to_string(frame);
       if (!word.empty()) in.fail(place, word);
       in.fail_with(place, in.peek().empty() ? "the end of the file" : "the end of the line");
     }

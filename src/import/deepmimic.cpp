@@ -84,7 +84,7 @@ Row read_row(TextInput& in, std::size_t frame) {
   for (int c = 0; c < kColumns; ++c) {
     if (c > 0) in.expect(",");
     double& value = row[c];
-    value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame + 1));
+    value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame));
     if (std::abs(value) > kMaxFrameValue) in.fail_with("a number within ±10000", text_of(value));
   }
   in.expect("]");
@@ -151,7 +151,7 @@ SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::pat
   SkeletonMotion motion;
   motion.name = path.stem().string();
   motion.path = path.string();
-  motion.metric_y_up = true;
+  motion.metric_up = 'y';
   for (const HumanoidJoint& joint : humanoid())
     motion.joints.push_back({joint.name, joint.parent, joint.offset, joint.numbers == 0});
   std::vector<double> durations;

@@ -87,6 +87,22 @@ void require_bones(const PerFrame<Positions>& frames, const std::string& path) {
                         " % (rotations? normalised numbers?)");
 }
 
+/// Warnings of joints at the origin in some frames, where a tracker has not seen them. The pelvis may be
+/// there.
+std::vector<std::string> origin_warnings(const PerFrame<Positions>& frames) {
+  std::vector<std::string> said;
+  for (int b = 1; b < kBodies; ++b) {
+    int lost = 0, last = 0;
+    for (int t = 0; t < frames.count(); ++t)
+      if (frames[t][b].isZero(0.0)) ++lost, last = t;
+    if (lost > 0)
+      said.push_back(body_in_words(b) + " at (0, 0, 0) in " + std::to_string(lost) + " of " +
+                     std::to_string(frames.count()) + " frames, last in frame " + std::to_string(last) +
+                     ": was it not seen? It is taken to be there");
+  }
+  return said;
+}
+
 /// The root's heading and place are sums over the frames before; the joints stand in its heading.
 PerFrame<Positions> positions_of_features(const Eigen::MatrixXd& rows, const std::string& path) {
   constexpr int kTurn = 0, kStep = 1, kHeight = 3, kJointsAt = 4;
@@ -211,7 +227,8 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   motion.name = name;
   motion.path = path;
   motion.fps = kPositionsFps;
-  motion.metric_y_up = features;
+  motion.metric_up = features ? 'y' : 0;
+  motion.warnings = origin_warnings(frames);
   motion.joints = joints_of(character, frames, path);
   for (const Positions& p : frames) {
     const Rotations q = rotations_of(character, p);
@@ -223,9 +240,8 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
       rotation.push_back(parent < 0 ? q[b] : (q[parent].conjugate() * q[b]).normalized());
     }
   }
-  motion.decisions.emplace_back(features
-                                    ? "frame rate: 20 fps, that of HumanML3D; --fps overrides"
-                                    : "frame rate: 20 fps, usual for motion generators; --fps overrides");
+  motion.decisions.emplace_back(features ? "frame rate: 20 fps, that of HumanML3D; --fps overrides"
+                                         : kAssumedRate);
   return motion;
 }
 

@@ -9,7 +9,8 @@
 ///     contacts (4)
 ///
 /// Source of the features: Guo et al., "Generating Diverse and Natural 3D Human Motions from Text" (CVPR
-/// 2022), its code's recover_from_ric; y up, metres. Both formats are taken to be at 20 fps.
+/// 2022), its code's recover_from_ric; y up, metres. Both formats are taken to be at 20 fps, which of joint
+/// positions is an assumption.
 ///
 /// Positions do not determine how a bone turns about its own axis. Pelvis and chest turn with hips, shoulders
 /// and trunk. A thigh or upper arm turns so that its hinge is perpendicular to the plane in which knee or
@@ -27,6 +28,9 @@
 namespace mimicx::import {
 
 inline constexpr double kPositionsFps = 20.0;
+/// The decision of files that tell no frame rate.
+inline constexpr const char* kAssumedRate =
+    "frame rate: 20 fps, assumed: the file tells none, motion generators use it; --fps overrides";
 inline constexpr std::size_t kHumanMl3dFeatures = 263;
 
 /// Whether an array of this shape is in one of the two formats.

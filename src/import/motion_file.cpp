@@ -22,6 +22,7 @@
 #include "import/evidence/angle_unit.h"
 #include "import/evidence/frame_rate.h"
 #include "import/evidence/scene_lift.h"
+#include "import/evidence/sides.h"
 #include "import/evidence/translation_unit.h"
 #include "import/evidence/up_axis.h"
 #include "import/joint_positions.h"
@@ -160,17 +161,25 @@ bool is_plausible_at(double fps, const motion::Clip& clip) {
   return implausible_speeds(other).empty();
 }
 
+bool is_rate_assumed(const std::vector<std::string>& decisions) {
+  return std::find(decisions.begin(), decisions.end(), kAssumedRate) != decisions.end();
+}
+
 void settle_fps(const ReadConfig& o, bool believed, motion::Clip& clip) {
+  const bool assumed = is_rate_assumed(clip.decisions);
   if (o.fps) {
-    clip.decisions.push_back("frame rate: " + rate_text(*o.fps) + " fps, as asked for" +
-                             (clip.fps == *o.fps ? "" : " (the file says " + rate_text(clip.fps) + ")"));
+    std::erase(clip.decisions, kAssumedRate);
+    clip.decisions.push_back(
+        "frame rate: " + rate_text(*o.fps) + " fps, as asked for" +
+        (assumed || clip.fps == *o.fps ? "" : " (the file says " + rate_text(clip.fps) + ")"));
     clip.fps = *o.fps;
     return;
   }
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  const std::string given = "frame rate: " + rate_text(clip.fps) + " fps, as given";
+  const std::string given =
+      "frame rate: " + rate_text(clip.fps) + (assumed ? " fps, as assumed" : " fps, as given");
   const std::string falls = !fall ? ""
                                   : std::to_string(fall->flights) +
                                         (fall->flights == 1 ? " flight" : " flights") +
@@ -244,8 +253,8 @@ std::string unit_name(double metres) {
 
 /// Summary of the decisions about a foreign skeleton, in three lines.
 std::vector<std::string> summary_of(const std::string& format, const RetargetReport& report, bool standard,
-                                    double fps) {
-  const std::string rate = rate_text(fps) + " frames per second, ";
+                                    const std::string& fps) {
+  const std::string rate = fps + ", ";
   if (report.own) return {format + " of this program: " + rate + "y up, metres"};
   return {format + ": " + rate + axis_name(report.up) + " up, " + unit_name(report.scale),
           std::string(standard ? "standard body" : "body shape fitted") + ", joints " +
@@ -266,7 +275,11 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   RetargetReport report;
   motion::Clip clip = retarget(motion, config, &report);
   clip.decisions.insert(clip.decisions.begin(), "format: " + format);
-  if (!o.verbose) clip.summary = summary_of(format, report, o.standard_body, o.fps.value_or(clip.fps));
+  const bool assumed = !o.fps && is_rate_assumed(clip.decisions);
+  const std::string fps = rate_text(o.fps.value_or(clip.fps)) + " frames per second";
+  if (!o.verbose)
+    clip.summary =
+        summary_of(format, report, o.standard_body, fps + (assumed ? " (assumed: --fps overrides)" : ""));
   return clip;
 }
 
@@ -428,8 +441,12 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
     choose_body(config, clip);
     settle_scale(config, believed, clip);
     settle_up(config, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
+    if (!believed && bends_backwards(clip))
+      clip.warnings.emplace_back(
+          "elbows or knees bend backwards: are left and right exchanged, or the world left-handed?");
   }
   const double fps = clip.fps;
+  if (!config.fps) require_no_time_step(path.string(), fps);
   settle_fps(config, believed, clip);
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_scene(config, believed, clip);

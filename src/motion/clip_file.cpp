@@ -88,9 +88,13 @@ std::optional<std::string> member_text(const Npz& npz, const std::string& key) {
 /// The file's frame rate. Where it has several that differ, the first counts, with a warning.
 double read_fps(const Npz& npz, const std::optional<double>& given, Clip& clip) {
   std::optional<double> rate;
-  std::string key;
+  std::string key, found = "none";
   for (const std::string& name : kRates) {
-    if (!npz.has(name) || npz.at(name).type == NpyArray::Type::kText) continue;
+    if (!npz.has(name)) continue;
+    if (npz.at(name).type == NpyArray::Type::kText) {
+      found = "text in " + name;
+      continue;
+    }
     const Member fps(npz, name);
     const bool sound = fps.values.size() == 1 && fps.values[0] > 0.0 && fps.values[0] <= kMaxFps;
     if (!sound && !given)
@@ -104,7 +108,7 @@ double read_fps(const Npz& npz, const std::optional<double>& given, Clip& clip) 
   }
   if (!rate && !given)
     throw DataError(npz.path, "", "a frame rate (mocap_framerate, mocap_frame_rate or fps; --fps gives one)",
-                    "none");
+                    found);
   return rate ? *rate : *given;
 }
 
@@ -148,9 +152,14 @@ void keep_other_columns(const Member& poses, std::size_t used, Clip& clip) {
                   names.empty() ? "no members at all" : names);
 }
 
-/// Fails where a member has rotation matrices.
+/// Fails where a member has rotation matrices, quaternions or the first two columns of matrices ("6D").
 void expect_axis_angle(const Member& member) {
   const auto& shape = member.array.shape;
+  for (const auto& [numbers, name] :
+       {std::pair<std::size_t, const char*>{4, "quaternions"}, {6, "6D rotations"}})
+    for (const std::size_t joints : {1, 21, 22, 23, 24, 52, 55})
+      if (member.columns() == numbers * joints && (shape.size() == 2 || shape.back() == numbers))
+        member.fail("rotations as axis-angle", member.shape() + ", " + name);
   if (shape.size() >= 3 && shape[shape.size() - 1] == 3 && shape[shape.size() - 2] == 3 && shape.size() != 3)
     member.fail("rotations as axis-angle", member.shape() + ", rotation matrices");
 }
@@ -430,7 +439,7 @@ NpyArray row_of(const NpyArray& array, std::size_t index) {
 }
 
 /// The archive, or of one whose arrays have a dimension for people in front, (P, T, …), the part of one
-/// person.
+/// person. More people than frames are frames with people, (T, P, …), and refused.
 Npz one_person_of(const Npz& npz, const std::optional<int>& person) {
   const std::string body = found_among(kBody, npz), trans = found_among(kTrans, npz);
   const std::string key = body.empty() ? found_among(kPoses, npz) : body;
@@ -443,6 +452,12 @@ Npz one_person_of(const Npz& npz, const std::optional<int>& person) {
     return npz;
   }
   const std::size_t people = shape[0];
+  if (people > shape[1])
+    throw DataError(npz.path, key, "people first, (people, frames, ...)",
+                    text_of_shape(shape) + ": " + std::to_string(people) + " people in " +
+                        std::to_string(shape[1]) + " frames, or " + std::to_string(shape[1]) +
+                        (shape[1] == 1 ? " person in " : " people in ") + std::to_string(people) +
+                        " frames, whose first two dimensions are to be exchanged");
   const auto place = static_cast<std::size_t>(person.value_or(1));
   if ((people != 1 && !person) || place > people)
     throw DataError(npz.path, key, "one person: --person 1 to " + std::to_string(people),

@@ -67,9 +67,15 @@ TEST(WriteFile, AnInterruptLeavesNoTemporaryFile) {
   EXPECT_EQ(read_file(folder / "b.csv"), "whole") << "what is finished stays";
 }
 
+TEST(DataErrors, AreOneLineWhateverTheFileIsCalled) {
+  EXPECT_STREQ(DataError("a\nb\x1b.npz", "line 1", "x", "y").what(), "a?b?.npz: line 1: expected x, found y");
+}
+
 TEST(Reason, OfTheStandardLibrarysErrorsIsInWords) {
   EXPECT_EQ(reason_of(std::bad_alloc()), "not enough memory");
   EXPECT_EQ(reason_of(std::runtime_error("why")), "why");
+  EXPECT_EQ(reason_of(fs::filesystem_error("cannot", "a/b", make_error_code(std::errc::filename_too_long))),
+            "a/b: File name too long");
 }
 
 TEST(ReadFile, ErrorStatesTheReason) {

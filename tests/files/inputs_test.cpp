@@ -47,8 +47,16 @@ TEST_F(FindMotions, SkipsAndListsOtherFilesAndRunOutputs) {
   EXPECT_EQ(found[0].name, "a");
   EXPECT_EQ(messages.str(), path("in") +
                                 ": skipped: a.clean.npz, a.mimicx/, fitted/, out/, sub/manifest.json, "
-                                "sub/neutral_stagei.npz, sub/notes.md, sub/shape.npz (no motions, or made by "
-                                "an earlier run)\n");
+                                "sub/neutral_stagei.npz, sub/notes.md, sub/shape.npz (no motions, made by an "
+                                "earlier run, or read under another name)\n");
+}
+
+TEST_F(FindMotions, ALineBreakInANameBreaksNoMessage) {
+  touch("in/a.npz");
+  touch("in/x\ny.txt");
+  std::ostringstream messages;
+  find_motions({path("in")}, {}, &messages);
+  EXPECT_NE(messages.str().find("skipped: x?y.txt (no"), std::string::npos) << messages.str();
 }
 
 TEST_F(FindMotions, CountsManySkippedFiles) {
@@ -65,6 +73,21 @@ TEST_F(FindMotions, FollowsEachLinkOnce) {
   std::filesystem::create_directory_symlink(path("in"), path("in/sub/back"));
   std::filesystem::create_directory_symlink(path("elsewhere"), path("in/link"));
   EXPECT_EQ(names(), (std::vector<std::string>{"link/b", "sub/a"}));
+}
+
+TEST_F(FindMotions, SaysWhichNamesAreLinksToAFileThatIsRead) {
+  touch("in/a.npz");
+  touch("in/sub/c.npz");
+  std::filesystem::create_symlink(path("in/a.npz"), path("in/b.npz"));
+  std::filesystem::create_directory_symlink(path("in"), path("in/sub/back"));
+  std::ostringstream messages;
+  EXPECT_EQ(find_motions({path("in")}, {}, &messages).size(), 2u);
+  EXPECT_EQ(messages.str(), path("in") +
+                                ": skipped: b.npz is a.npz, sub/back/ is . (no motions, made by an earlier "
+                                "run, or read under another name)\n");
+  messages.str("");
+  EXPECT_EQ(find_motions({path("in/b.npz"), path("in/a.npz"), path("in/b.npz")}, {}, &messages).size(), 1u);
+  EXPECT_EQ(messages.str(), path("in/a.npz") + ": skipped: it is " + path("in/b.npz") + "\n");
 }
 
 TEST_F(FindMotions, ListsAFileOnce) {

@@ -257,7 +257,7 @@ TEST(Bvh, ReportsErrorsWithTheirLine) {
   expect_refusal(replaced(kSmall, "Frames: 2", "Frames: 0"), "line 17", "'0'");
   expect_refusal(replaced(kSmall, "Frames: 2", "Frames: -1"), "line 17", "'-1'");
   expect_refusal(replaced(kSmall, "0.00833333", "0"), "line 18", "'0'");
-  expect_refusal(replaced(kSmall, "70 80 90", "70 80"), "line 19", "number 9 of the 9 of frame 1");
+  expect_refusal(replaced(kSmall, "70 80 90", "70 80"), "line 19", "number 9 of the 9 of frame 0");
   expect_refusal(replaced(kSmall, "70 80 90", "70 80 90 95"), "line 19", "more");
   expect_refusal(replaced(kSmall, "51 61", "51 inf"), "line 20", "'inf'");
 }

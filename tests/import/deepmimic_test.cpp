@@ -123,7 +123,7 @@ TEST(DeepMimic, ReportsErrorsWithTheirLine) {
   expect_refused_clip(json({row}), "line 5", "10000");
   expect_refused_clip(json({rest_row(0.0)}), "Frames", "durations");
   std::string nan = good;
-  expect_refused_clip(nan.replace(nan.find("0.9"), 3, "nan"), "line 5", "number 3 of the 44 of frame 1");
+  expect_refused_clip(nan.replace(nan.find("0.9"), 3, "nan"), "line 5", "number 3 of the 44 of frame 0");
 }
 
 TEST(DeepMimic, BoundsTheNestingOfBrackets) {

@@ -68,6 +68,34 @@ TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
   EXPECT_EQ(clip.fps, 30.0);
 }
 
+TEST(JointPositions, JointsAtTheOriginGiveAWarning) {
+  const NpyArray array = positions_of(truth("walk"));
+  EXPECT_TRUE(skeleton_of_positions(array, "a", "a.npy").warnings.empty());
+  std::vector<double> values = array.to_double();
+  for (const std::size_t t : {10, 11, 14}) std::fill_n(&values[3 * (t * kBodies + kLeftWrist)], 3, 0.0);
+  const auto warnings =
+      skeleton_of_positions(NpyArray::from_double(array.shape, values.data()), "a", "a.npy").warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "left wrist at (0, 0, 0) in 3 of " + std::to_string(array.shape[0]) +
+                             " frames, last in frame 14: was it not seen? It is taken to be there");
+}
+
+TEST(JointPositions, TheFrameRateIsSaidToBeAssumed) {
+  const NpyArray array = positions_of(truth("walk"));
+  const auto decides = [](const motion::Clip& clip, const std::string& line) {
+    return std::count(clip.decisions.begin(), clip.decisions.end(), line) == 1;
+  };
+  const motion::Clip clip = read_positions(array);
+  EXPECT_EQ(clip.summary.at(0),
+            "joint positions: 20 frames per second (assumed: --fps overrides), y up, metres");
+  EXPECT_TRUE(decides(clip, "frame rate: 20 fps, as assumed"));
+  ReadConfig config;
+  config.fps = 30.0;
+  const motion::Clip asked = read_positions(array, config);
+  EXPECT_EQ(asked.summary.at(0), "joint positions: 30 frames per second, y up, metres");
+  EXPECT_TRUE(decides(asked, "frame rate: 30 fps, as asked for"));
+}
+
 TEST(JointPositions, HumanMl3dFeaturesGiveTheSameMotion) {
   for (const char* kind : {"walk_turn", "turn_in_place"}) {
     const motion::Clip exact = truth(kind), clip = read_positions(features_of(positions_of(exact)));
@@ -96,6 +124,14 @@ TEST(JointPositions, RejectInvalidArraysInOneLine) {
   values[100] = std::nan("");
   EXPECT_THROW(read_positions(NpyArray::from_double(positions.shape, values.data())), DataError);
   EXPECT_THROW(read_positions(NpyArray::from_double({0, kBodies, 3}, values.data())), DataError);
+  values = positions.to_double();
+  std::copy_n(&values[3 * (5 * kBodies + kLeftElbow)], 3, &values[3 * (5 * kBodies + kLeftWrist)]);
+  try {
+    read_positions(NpyArray::from_double(positions.shape, values.data()));
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("frame 5: expected"), std::string::npos) << error.what();
+  }
   Random random(3);
   for (double& value : values) value = random.uniform(-1.0, 1.0);
   try {

@@ -253,6 +253,50 @@ TEST(MarkerJoints, AFileIsReadAsAMotionInEitherUnit) {
   EXPECT_NEAR(pelvis(0.002).x() / pelvis({}).x(), 2.0, 0.05) << "--scale";
 }
 
+TEST(MarkerJoints, TimesThatContradictTheRateGiveAWarning) {
+  Markers markers = test::markers_of(walking());
+  EXPECT_EQ(motion_from(test::format_trc(markers), "walk.trc").warnings, std::vector<std::string>{});
+  std::string text = test::format_trc(markers);
+  text.replace(text.find("\n30\t") + 1, 2, "60");
+  const motion::Clip clip = motion_from(text, "walk.trc");
+  EXPECT_EQ(clip.fps, 60.0);
+  EXPECT_EQ(clip.warnings.at(0),
+            "two frame rates: DataRate says 60, the Time column 30; DataRate counts without --fps 30");
+}
+
+TEST(MarkerJoints, UnitsThatNoBodyHasAreRefused) {
+  const Markers markers = test::markers_of(walking());
+  for (const auto& [written, said] : {std::pair("mm", "m"), {"mm", "cm"}, {"m", "mm"}}) {
+    std::string text = test::format_trc(markers, written);
+    const std::string unit = std::string("\t") + written + "\n";
+    text.replace(text.find(unit), unit.size(), std::string("\t") + said + "\n");
+    EXPECT_NE(
+        message([&] { motion_from(text, "walk.trc"); }).find("walk.trc: line 3: expected Units that give"),
+        std::string::npos)
+        << written << " as " << said;
+    ReadConfig config;
+    config.scale = std::string(written) == "m" ? 1.0 : 0.001;
+    EXPECT_EQ(motion_from(text, "walk.trc", config).frames(), walking().frames());
+  }
+}
+
+TEST(MarkerJoints, AnotherUpAxisIsFoundAndSaid) {
+  const motion::Clip truth = walking();
+  Markers markers = test::markers_of(truth);
+  for (Track& track : markers.tracks)
+    for (Vector3d& place : track) place = rotation_to_z_up('y') * place;
+  const std::string text = test::format_trc(markers);
+  const motion::Clip clip = motion_from(text, "walk.trc");
+  EXPECT_EQ(clip.summary.at(0), "markers: 30 frames per second, z up, metres");
+  EXPECT_NE(clip.warnings.at(0).find("up axis z, not y as is usual for markers"), std::string::npos);
+  EXPECT_LT((motion::poses_of(clip)[0].p_WB[kHead] - motion::poses_of(truth)[0].p_WB[kHead]).norm(), 0.1);
+  ReadConfig config;
+  config.up = 'y';
+  EXPECT_EQ(motion_from(text, "walk.trc", config).summary.at(0),
+            "markers: 30 frames per second, y up, metres")
+      << "the user's setting counts";
+}
+
 /// OpenSim's examples, against joints that others placed (../shared/forces), relative to the left wrist: both
 /// have it from its markers alone, and their belts differ by 1 %.
 TEST(MarkerJoints, OfSharedFilesAreNearThoseOfOpenSim) {

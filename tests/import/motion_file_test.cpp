@@ -190,6 +190,48 @@ TEST(ReadMotion, FewOrDisagreeingFallsOnlySuggestAFrameRate) {
   }
 }
 
+TEST(ReadMotion, ATimeStepIsNoFrameRate) {
+  motion::Clip clip = foreign("walk");
+  for (const double rate : {24.0, 30.0, 120.0}) {
+    clip.fps = 1.0 / rate;
+    try {
+      written_and_read(clip);
+      FAIL() << rate;
+    } catch (const DataError& error) {
+      const std::string want = "expected a frame rate, found " + short_number(clip.fps) +
+                               ", which is a time step: --fps " + short_number(rate);
+      EXPECT_NE(std::string(error.what()).find(want), std::string::npos) << error.what();
+    }
+    ReadConfig asked;
+    asked.fps = rate;
+    EXPECT_EQ(written_and_read(clip, asked).fps, rate);
+  }
+}
+
+TEST(ReadMotion, WarnsOfElbowsThatBendBackwards) {
+  const auto warned = [](const motion::Clip& clip) {
+    const auto& all = written_and_read(clip).warnings;
+    return std::any_of(all.begin(), all.end(), [](const std::string& line) {
+      return line.find("are left and right exchanged, or the world left-handed?") != std::string::npos;
+    });
+  };
+  for (const char* kind : {"punch", "dance", "wave"}) {
+    const motion::Clip clip = foreign(kind);
+    motion::Clip exchanged = clip, left_handed = clip;
+    for (auto& rotations : exchanged.rotations)
+      for (const int left :
+           {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist})
+        std::swap(rotations[left], rotations[left + 1]);
+    for (int t = 0; t < clip.frames(); ++t) {
+      for (Vector3d& r : left_handed.rotations[t]) r = Vector3d(r.x(), -r.y(), -r.z());
+      left_handed.trans[t].x() *= -1.0;
+    }
+    EXPECT_FALSE(warned(clip)) << kind;
+    EXPECT_TRUE(warned(exchanged)) << kind;
+    EXPECT_TRUE(warned(left_handed)) << kind;
+  }
+}
+
 TEST(ReadMotion, WarnsOfInhumanSpeeds) {
   motion::Clip clip = foreign("walk");
   clip.fps = 300.0;

@@ -196,6 +196,8 @@ TEST(ClipFile, ReadsBothFrameRateKeysAndRequiresOne) {
     npz.set("mocap_frame_rate", NpyArray::scalar(bad));
     expect_refusal(npz, "frame rate");
   }
+  npz.set("mocap_frame_rate", NpyArray::scalar_text("30"));
+  expect_refusal(npz, "found text in mocap_frame_rate");
 }
 
 TEST(ClipFile, TheGivenRateStandsInForNoneAndForABadOne) {
@@ -275,6 +277,16 @@ TEST(ClipFile, JointsOfThreeNumbersAreTheFlatLayout) {
   const std::vector<double> matrices(3 * 22 * 9, 0.0);
   npz.set("poses", NpyArray::from_double({3, 22, 3, 3}, matrices.data()));
   expect_refusal(npz, "rotation matrices");
+  for (const auto& [shape, name] : {std::pair(std::vector<std::size_t>{3, 24, 4}, "quaternions"),
+                                    {{3, 96}, "quaternions"},
+                                    {{3, 24, 6}, "6D rotations"},
+                                    {{3, 144}, "6D rotations"}}) {
+    npz.set("poses", NpyArray::from_double(shape, matrices.data()));
+    expect_refusal(
+        npz, std::string("expected rotations as axis-angle, found shape (3, ") +
+                 (shape.size() == 3 ? "24, " + std::to_string(shape[2]) : std::to_string(shape[1])) + "), " +
+                 name);
+  }
 }
 
 TEST(ClipFile, OneOfSeveralPeopleIsRead) {
@@ -297,6 +309,15 @@ TEST(ClipFile, OneOfSeveralPeopleIsRead) {
   EXPECT_EQ(second.rotations, read(usual).rotations);
   EXPECT_EQ(second.trans[1], Vector3d(2.0 * read(usual).trans[1]));
   EXPECT_THROW(clip_from(npz, "a", {30.0, 3}), DataError);
+}
+
+TEST(ClipFile, FramesInFrontOfPeopleAreRefused) {
+  const std::vector<double> zeros(5 * 2 * 72, 0.0);
+  Npz npz;
+  npz.set("poses", NpyArray::from_double({5, 2, 72}, zeros.data()));
+  npz.set("trans", NpyArray::from_double({5, 2, 3}, zeros.data()));
+  expect_refusal(npz, "5 people in 2 frames, or 2 people in 5 frames");
+  EXPECT_THROW(clip_from(npz, "a", {30.0, 1}), DataError) << "poses of different people";
 }
 
 TEST(ClipFile, WhatIsNotUsedNeedNotBeFinite) {

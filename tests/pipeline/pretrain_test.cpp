@@ -48,7 +48,7 @@ TEST_F(Pretrain, LeavesEveryFileTheDocumentationNames) {
 }
 
 TEST_F(Pretrain, OptionsAreTrainedOnTheMotionsOfTheirOwnClusterAlone) {
-  run(pretraining("run"));
+  pretrain_once("run");
   const options::Clusters clusters = options::read_clusters(out("run") / "clusters.json");
   ASSERT_EQ(clusters.clusters.count(), 2);
   std::vector<int> sizes;

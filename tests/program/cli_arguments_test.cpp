@@ -57,6 +57,16 @@ TEST_F(Cli, AcceptsThousandsAndMillionsSuffixes) {
     EXPECT_EQ(mimicx("imitate " + path("none.npz") + " --samples '" + text + "'").status, 2) << text;
 }
 
+TEST_F(Cli, AFileForTheOutputFolderIsWrongUsage) {
+  write_file_atomically(path("file"), "x");
+  for (const std::string command :
+       {"plan a.npz", "fit a.npz", "synth", "corrupt a.npz --kinds jitter", "pretrain a.npz"}) {
+    const Call call = mimicx(command + " --out " + path("file"));
+    EXPECT_EQ(call.status, 2) << command;
+    EXPECT_TRUE(says(call, "--out: expected a folder, found " + path("file"))) << call.text;
+  }
+}
+
 TEST_F(Cli, BadValueErrorIsOneLineWithTheExpectedValue) {
   for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
            {"imitate a --samples -1", "--samples: expected a whole number from 0 on, found -1"},

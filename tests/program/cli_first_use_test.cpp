@@ -157,7 +157,8 @@ TEST_F(Cli, JointPositionsGiveACleanNpz) {
   write_file_atomically(path("gen.npy"), format_npy(NpyArray::from_double({20, kBodies, 3}, values.data())));
   const Call call = mimicx("plan " + path("gen.npy") + " --threads 1");
   EXPECT_EQ(call.status, 0) << call.text;
-  EXPECT_TRUE(says(call, "joint positions: 20 frames per second, y up")) << call.text;
+  EXPECT_TRUE(says(call, "joint positions: 20 frames per second (assumed: --fps overrides), y up"))
+      << call.text;
   EXPECT_EQ(motion::read_clip(path("gen.clean.npz")).fps, 30.0);
 }
 

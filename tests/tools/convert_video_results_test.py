@@ -205,11 +205,11 @@ def check_several_people():
     status, out, complaint = python_program.run(TOOL, "wham_output.pkl", "all.npz", *more)
     assert status == 0, complaint
     lines = out.splitlines()
-    assert lines == ["all_person0_from5.npz: person 0, frames 5 to 44, smpl, with keypoints",
-                     "all_person0_from70.npz: person 0, frames 70 to 114, smpl, with keypoints",
+    assert lines == ["all_person0_from5.npz: person 0, frames 5 to 44, smpl, with keypoints, 30 fps assumed (--fps)",
+                     "all_person0_from70.npz: person 0, frames 70 to 114, smpl, with keypoints, 30 fps assumed (--fps)",
                      "person 0, frames 300 to 304: left out, shorter than 30 frames",
                      "person 1, frames 40 to 51: left out, shorter than 30 frames",
-                     "all_person2.npz: person 2, frames 100 to 159, smpl, with keypoints"], lines
+                     "all_person2.npz: person 2, frames 100 to 159, smpl, with keypoints, 30 fps assumed (--fps)"], lines
     later = np.load("all_person0_from70.npz")
     assert np.allclose(later["poses"][:, 3:], people[0]["pose_world"][40:85, 3:])
     assert np.array_equal(later["keypoints_2d"], tracker[0]["keypoints"][40:85])
@@ -488,6 +488,7 @@ def check_phc():
                   "phc.pkl")
     expect_motion(out, SMPL_J0)
     assert out["mocap_framerate"] == 25
+    assert convert("phc.pkl", "--fps", "50")[2]["mocap_framerate"] == 50, "the given rate wins"
 
 
 def check_aist_and_vibe():
@@ -496,6 +497,7 @@ def check_aist_and_vibe():
     out = written({"smpl_poses": pose, "smpl_trans": 93.0 * world, "smpl_scaling": np.array([93.0])}, "aist.pkl")
     expect_motion(out, SMPL_J0)
     assert out["mocap_framerate"] == 60
+    assert convert("aist.pkl", "--fps", "50")[2]["mocap_framerate"] == 50, "the given rate wins"
     size = (1920.0, 1080.0)
     near = camera - camera.min(0) + [0.1, 0.1, 3.0]  # in front of the camera
     scale = np.hypot(*size) / (near[:, 2] * size[0] / 2)
@@ -523,6 +525,8 @@ def check_positions_of_mdm_and_sam3d():
     assert status == 0, complaint
     for sample, length in ((0, 60), (1, 41)):
         assert np.allclose(np.load(f"mdm_person{sample}.npy"), motion[sample].transpose(2, 0, 1)[:length], atol=1e-6)
+    _, out, complaint = python_program.run(TOOL, "results.npy", "mdm50", "--fps", "50")
+    assert out.count("--fps 50") == 2 and "assumed" not in out, out + complaint
     points, place_ = random.normal(size=(FRAMES, 70, 3)), np.array([0.1, 0.2, 4.0])
     with open("sam3d.pkl", "wb") as file:
         pickle.dump([[{"pred_keypoints_3d": p, "pred_cam_t": place_}] for p in 0.1 * points], file)
@@ -538,8 +542,11 @@ def check_many_results_and_nothing_overwritten():
         with open(name, "wb") as file:
             pickle.dump(GVHMR, file)
     many = TOOL, "one.pkl", "two.pkl", "converted"
-    status, _, complaint = python_program.run(*many)
+    status, out, complaint = python_program.run(*many)
     assert status == 0 and sorted(os.listdir("converted")) == ["one.npz", "two.npz"], complaint
+    assert out.count(", 30 fps assumed (--fps)") == 2, out
+    status, out, complaint = python_program.run(TOOL, "one.pkl", "fifty.npz", "--fps", "50")
+    assert status == 0 and "assumed" not in out, out + complaint
     before = open("converted/one.npz", "rb").read()
     os.remove("converted/two.npz")
     status, _, complaint = python_program.run(*many)

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/elementary.h"
+#include "core/error.h"
 #include "core/number_text.h"
 #include "core/units.h"
 #include "import/plausibility.h"
@@ -143,6 +144,12 @@ double usual_rate(double fps) {
         (best == 0.0 || std::abs(log(fps / rate)) < std::abs(log(fps / best))))
       best = rate;
   return best;
+}
+
+void require_no_time_step(const std::string& path, double fps) {
+  if (const double rate = usual_rate(1.0 / fps); rate > 0.0)
+    throw DataError(path, "", "a frame rate",
+                    short_number(fps) + ", which is a time step: --fps " + rate_text(rate));
 }
 
 std::vector<std::string> odd_rate_warnings(double fps, int frames) {

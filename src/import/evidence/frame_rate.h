@@ -28,6 +28,9 @@ double rate_of_frame_time(std::string_view text, double seconds);
 /// The frame rate in use that is next to `fps`, where one is within a tenth; else 0.
 double usual_rate(double fps);
 
+/// @throws DataError where a frame rate is the time step of one in use, such as 1/30
+void require_no_time_step(const std::string& path, double fps);
+
 /// Warnings of a rate that no recording has, or that is suspiciously the number of frames.
 std::vector<std::string> odd_rate_warnings(double fps, int frames);
 

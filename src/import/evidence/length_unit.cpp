@@ -72,6 +72,8 @@ UnitEvidence unit_evidence(const PerFrame<Landmarks>& poses, const Vector3d& up,
   return evidence;
 }
 
+bool is_human_leg(double leg) { return leg > kShortestLeg && leg < kLongestLeg; }
+
 UnitDecision decide_unit(const UnitEvidence& evidence) {
   const auto [usual, spread] = usual_leg(evidence.trunk / evidence.leg);
   const auto likelihood = [&, usual = usual, spread = spread](const Unit& unit) {
@@ -98,10 +100,7 @@ UnitDecision decide_unit(const UnitEvidence& evidence) {
   for (const Unit& unit : kUnits) order.emplace_back(likelihood(unit), &unit);
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  const auto fits = [&](const Unit& unit) {
-    const double leg = unit.metres * evidence.leg;
-    return leg > kShortestLeg && leg < kLongestLeg;
-  };
+  const auto fits = [&](const Unit& unit) { return is_human_leg(unit.metres * evidence.leg); };
   const Unit& best = *order[0].second;
   UnitDecision out;
   out.name = best.name;

@@ -26,6 +26,9 @@ struct UnitEvidence {
 UnitEvidence unit_evidence(const PerFrame<Landmarks>& poses, const Vector3d& up, double fps,
                            std::vector<std::string> names);
 
+/// Whether people have legs of this length, m.
+bool is_human_leg(double leg);
+
 struct UnitDecision {
   std::string name;     ///< "centimetres"
   double metres = 1.0;  ///< of one unit

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "import/landmarks.h"
+#include "motion/clip.h"
 
 namespace mimicx::import {
 
@@ -16,5 +17,9 @@ struct SidesDecision {
 };
 /// @param has_toes  the skeleton has joints for both feet
 SidesDecision decide_sides(const PerFrame<Landmarks>& poses, bool has_toes);
+
+/// Whether elbows or knees of a motion on our body bend backwards: rotations whose left and right are
+/// exchanged, or those of a left-handed world, do that. The body itself has its left on the left.
+bool bends_backwards(const motion::Clip& clip);
 
 }  // namespace mimicx::import

@@ -6,6 +6,8 @@
 
 #include "character/character.h"
 #include "core/quantile.h"
+#include "import/evidence/length_unit.h"
+#include "import/evidence/up_axis.h"
 #include "import/joint_positions.h"
 #include "import/opensim/functional_axis.h"
 #include "import/opensim/marker_names.h"
@@ -221,6 +223,17 @@ Vector3d belt_velocity(const PerBody<Track>& p, double fps, const Vector3d& up) 
   return treadmill ? belt : Vector3d(Vector3d::Zero());
 }
 
+/// A warning where the rate contradicts the times of the rows.
+std::vector<std::string> rate_warnings(const Markers& markers) {
+  constexpr double kSame = 0.02,
+                   kLastPlace = 0.01;  // relative; s, of times that are printed with two decimals
+  const double steps = markers.tracks[0].count() - 1.0, said = steps / markers.fps;
+  if (!(markers.seconds > 0.0) || std::abs(markers.seconds - said) < kSame * said + kLastPlace) return {};
+  const std::string other = short_number(steps / markers.seconds);
+  return {"two frame rates: DataRate says " + short_number(markers.fps) + ", the Time column " + other +
+          "; DataRate counts without --fps " + other};
+}
+
 }  // namespace
 
 PerFrame<PerBody<Vector3d>> joints_of_markers(const Markers& markers, const Vector3d& up,
@@ -252,21 +265,35 @@ SkeletonMotion skeleton_of_markers(std::string_view text, const std::string& nam
   const Markers markers = parse_trc(text, path, metres);
   if (markers.names.empty() || markers.tracks[0].empty())
     throw DataError(path, "", "at least one marker and frame", "none");
-  std::vector<std::string> decisions = {
-      "frame rate: " + short_number(markers.fps) + " fps, by DataRate",
-      "unit: " + short_number(markers.unit) + (metres ? " m, as asked for" : " m, by Units")};
-  std::vector<std::string> warnings;
-  const PerFrame<PerBody<Vector3d>> frames = joints_of_markers(
-      markers, rotation_to_z_up(up.value_or('y')).conjugate() * Vector3d::UnitZ(), decisions, warnings);
-  std::vector<double> values;
-  for (const PerBody<Vector3d>& joints : frames)
-    for (const Vector3d& joint : joints) values.insert(values.end(), joint.data(), joint.data() + 3);
-  SkeletonMotion motion =
-      skeleton_of_positions(NpyArray::from_double({frames.size(), kBodies, 3}, values.data()), name, path);
-  motion.fps = markers.fps;
-  motion.metric_y_up = true;
-  motion.decisions = decisions;
-  motion.warnings = warnings;
+  const auto skeleton = [&](char axis) {
+    std::vector<std::string> decisions = {
+        "frame rate: " + short_number(markers.fps) + " fps, by DataRate",
+        "unit: " + short_number(markers.unit) + (metres ? " m, as asked for" : " m, by Units")};
+    std::vector<std::string> warnings = rate_warnings(markers);
+    const PerFrame<PerBody<Vector3d>> frames = joints_of_markers(
+        markers, rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ(), decisions, warnings);
+    std::vector<double> values;
+    for (const PerBody<Vector3d>& joints : frames)
+      for (const Vector3d& joint : joints) values.insert(values.end(), joint.data(), joint.data() + 3);
+    SkeletonMotion motion =
+        skeleton_of_positions(NpyArray::from_double({frames.size(), kBodies, 3}, values.data()), name, path);
+    motion.fps = markers.fps;
+    motion.metric_up = axis;
+    motion.decisions = decisions;
+    motion.warnings = warnings;
+    return motion;
+  };
+  SkeletonMotion motion = skeleton(up.value_or('y'));
+  const PerFrame<Landmarks> landmarks = landmarks_of(motion, map_joints(motion, {}));
+  if (const double leg = leg_length(landmarks); !metres && !is_human_leg(leg))
+    throw DataError(path, "line 3", "Units that give legs of 0.28 to 1.3 m",
+                    "legs of " + short_number(leg) + " m (--scale gives metres per unit)");
+  if (up) return motion;
+  const UpDecision found = decide_up(landmarks, std::nullopt, 'y');
+  if (found.axis == 'y' || found.is_near()) return motion;
+  motion = skeleton(found.axis);
+  motion.warnings.push_back("up axis " + axis_name(found.axis) + ", not y as is usual for markers (" +
+                            found.why + "): --up " + axis_name(found.axis) + ", or --up y");
   return motion;
 }
 

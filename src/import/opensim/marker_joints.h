@@ -34,7 +34,9 @@ PerFrame<PerBody<Vector3d>> joints_of_markers(const Markers& markers, const Vect
                                               std::vector<std::string>& decisions,
                                               std::vector<std::string>& warnings);
 
-/// A .trc as a motion on a skeleton. @param path  for messages @param up, metres  of the file, as asked for
+/// A .trc as a motion on a skeleton. Without `up` it is y, except where the body clearly stands along another
+/// axis. @param path  for messages @param up, metres  of the file, as asked for
+/// @throws DataError where its Units give a body that no person has
 SkeletonMotion skeleton_of_markers(std::string_view text, const std::string& name, const std::string& path,
                                    std::optional<char> up = {}, std::optional<double> metres = {});
 

@@ -112,6 +112,8 @@ Markers parse_trc(std::string_view text, const std::string& path, std::optional<
   markers.tracks.resize(markers.names.size());
   const std::size_t columns = 2 + 3 * markers.names.size();
   std::size_t rows = 0;
+  double start = 0.0, end = 0.0;
+  bool timed = true;
   while (!lines.at_end()) {
     const auto cells = lines.next();
     if (cells.size() == 1 && cells[0].empty()) continue;
@@ -119,11 +121,14 @@ Markers parse_trc(std::string_view text, const std::string& path, std::optional<
       lines.fail(std::to_string(columns) + " cells divided by tabs", std::to_string(cells.size()) + " cells");
     if (++rows * markers.names.size() > kMaxJointFrames)
       lines.fail("a motion that fits into memory", cells[0]);
+    timed = timed && parse_number(cells[1], end);
+    if (rows == 1) start = end;
     for (std::size_t i = 0; i < markers.names.size(); ++i)
       markers.tracks[i].push_back(markers.unit * place_of(&cells[2 + 3 * i], lines));
   }
   if (static_cast<double>(rows) != frames)
     lines.fail("as many rows as NumFrames says", std::to_string(rows) + " rows");
+  if (timed) markers.seconds = end - start;
   return markers;
 }
 

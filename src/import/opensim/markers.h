@@ -22,9 +22,10 @@ namespace mimicx::import {
 using Track = PerFrame<Vector3d>;
 
 struct Markers {
-  std::string path;   ///< of the file, for messages
-  double fps = 0.0;   ///< DataRate
-  double unit = 1.0;  ///< metres per unit of the file
+  std::string path;      ///< of the file, for messages
+  double fps = 0.0;      ///< DataRate
+  double seconds = 0.0;  ///< from the first to the last row, by the Time column; 0: it does not say
+  double unit = 1.0;     ///< metres per unit of the file
   std::vector<std::string> names;
   std::vector<Track> tracks;  ///< of each marker; NaN where it was not seen
 };

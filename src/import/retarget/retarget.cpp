@@ -52,7 +52,7 @@ void check_bones(const SkeletonMotion& motion, const Source& source) {
   for (int t = 0; t < source.frames.count(); ++t) {
     const auto check = [&](int from, int to) {
       if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
-        throw DataError(motion.path, "frame " + std::to_string(t + 1),
+        throw DataError(motion.path, "frame " + std::to_string(t),
                         body_in_words(from) + " and " + body_in_words(to) + " at different places",
                         "both at the same place");
     };
@@ -75,9 +75,9 @@ void drop_t_pose(Source& source, motion::Clip& clip) {
 char find_up(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
              motion::Clip& clip) {
   std::string why = "given by the user";
-  char up = config.up.value_or('y');
-  if (!config.up && motion.metric_y_up) {
-    why = "defined by the format";
+  char up = config.up.value_or(motion.metric_up);
+  if (!config.up && motion.metric_up != 0) {
+    why = up == 'y' ? "defined by the format" : "the body's, not the format's";
   } else if (!config.up) {
     const UpDecision found = decide_up(source.frames, landmarks_of(rest_pose(motion), source.map), 'y');
     up = found.axis;
@@ -97,7 +97,7 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
         sentence("unit %.6g m: given by the user; legs are %.2f m long", config.scale, config.scale * leg));
     return config.scale;
   }
-  if (motion.metric_y_up) return 1.0;
+  if (motion.metric_up != 0) return 1.0;
   std::vector<std::string> names;
   for (const SkeletonJoint& joint : motion.joints) names.push_back(joint.name);
   const UnitDecision unit = decide_unit(
@@ -348,7 +348,7 @@ motion::Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config
     bool finite = clip.trans[t].allFinite();
     for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
     if (!finite)
-      throw DataError(motion.path, "frame " + std::to_string(t + 1), "a pose that a body can take",
+      throw DataError(motion.path, "frame " + std::to_string(t), "a pose that a body can take",
                       "a degenerate one");
   }
   if (report != nullptr) *report = local;

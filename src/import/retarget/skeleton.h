@@ -32,7 +32,7 @@ struct SkeletonMotion {
   std::string path;  ///< of the file, for messages
   double fps = 30.0;
   double largest_angle = 0.0;  ///< magnitude of a rotation channel, as the file has it; 0: no channels
-  bool metric_y_up = false;    ///< the format defines metres and y up; else retargeting detects both
+  char metric_up = 0;          ///< the format defines metres and, usually y, up; 0: retargeting detects both
   PerJoint<SkeletonJoint> joints;
   PerFrame<PerJoint<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
   PerFrame<PerJoint<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent
