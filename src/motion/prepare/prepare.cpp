@@ -12,9 +12,11 @@
 #include "motion/prepare/floor_correction.h"
 #include "motion/prepare/foot_planting.h"
 #include "motion/prepare/glitches.h"
+#include "motion/prepare/ground_slope.h"
 #include "motion/prepare/hinge.h"
 #include "motion/prepare/joint_ranges.h"
 #include "motion/prepare/limb_glitches.h"
+#include "motion/prepare/root_travel.h"
 #include "motion/prepare/self_passage.h"
 #include "motion/prepare/stance.h"
 #include "motion/resample.h"
@@ -68,6 +70,28 @@ void note_oddities(const PerFrame<BodyPoses>& poses, double fps, double floor_sh
                              ? "moved %.2f m down to the floor: is the translation in metres, z up?"
                              : "moved %.2f m up to the floor: is the translation in metres, z up?",
                          std::abs(floor_shift)));
+}
+
+/// Notes for a world that contradicts the feet, before preparation moves them.
+std::vector<std::string> contradictions(const Reference& reference) {
+  std::vector<std::string> notes;
+  char note[250];
+  if (const auto slope = ground_slope(reference.character, reference.poses, reference.fps)) {
+    std::snprintf(note, sizeof note,
+                  "the feet stand on a slope of %.0f degrees, up would be (%.2f, %.2f, %.2f): is the camera "
+                  "tilted? Turn the motion so that gravity points down",
+                  slope->degrees, slope->up.x(), slope->up.y(), slope->up.z());
+    notes.emplace_back(note);
+  }
+  if (const auto found = travel_contradiction(reference.character, reference.poses, reference.fps)) {
+    const double ratio = std::abs(found->ratio) < 0.005 ? 0.0 : found->ratio;  // not "-0.00"
+    std::snprintf(note, sizeof note,
+                  "feet on the floor slide %.0f mm a frame, the body travels %.2f times the way that they "
+                  "walk: a treadmill, or a translation that is missing, mirrored or wrongly scaled?",
+                  found->slide_mm, ratio);
+    notes.emplace_back(note);
+  }
+  return notes;
 }
 
 void forward(Reference& reference) {
@@ -214,6 +238,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   const Distance hinge = distance_mm(poses_of(bridged), out.poses);
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
+  const std::vector<std::string> contradicted = contradictions(out);
   if (config.ranges) bring_into_ranges(out, r);
   if (config.separate) lead_around(config.sees, out, r);
   if (config.separate) r.arms_moved_mm = kMm * separate_arms(out);
@@ -233,6 +258,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   r.change_max_mm = change.max;
   r.notes.insert(r.notes.begin(), input.warnings.begin(), input.warnings.end());
   note_oddities(out.poses, out.fps, r.floor_shift_mm / kMm, r.notes);
+  r.notes.insert(r.notes.end(), contradicted.begin(), contradicted.end());
   if (report) *report = r;
   return out;
 }

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "core/quantile.h"
+#include "core/units.h"
+#include "import/world_transform.h"
 #include "motion/clip_file.h"
 #include "motion/metrics.h"
 #include "motion/prepare/damaged_motions.h"
@@ -130,6 +132,14 @@ TEST(Prepare, NotesSignsOfWrongAxesScaleOrRate) {
   for (std::size_t t = 0; t < 30; ++t) fast.trans[t].x() = static_cast<double>(t);
   ASSERT_EQ(notes(fast).size(), 1u);
   EXPECT_NE(notes(fast)[0].find("speed"), std::string::npos);
+  Clip tilted = test::synthetic_clip("squat", 3);
+  import::rotate_world(exp_map(20.0 * kDegree * Vector3d::UnitX()), tilted);
+  ASSERT_EQ(notes(tilted).size(), 1u);
+  EXPECT_NE(notes(tilted)[0].find("tilted"), std::string::npos);
+  Clip treadmill = test::synthetic_clip("walk", 3);
+  for (Vector3d& trans : treadmill.trans) trans.head<2>().setZero();
+  ASSERT_EQ(notes(treadmill).size(), 1u);
+  EXPECT_NE(notes(treadmill)[0].find("treadmill"), std::string::npos);
 }
 
 /// Largest distance of a joint from where it is in another reference and `up` higher, m.
