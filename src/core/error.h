@@ -17,10 +17,11 @@
 
 namespace mimicx {
 
-/// A file's name for a message of one line: control characters become '?'.
+/// A file's name for a message of one line: line breaks become '?'. (What is printed escapes the other
+/// control characters.)
 inline std::string on_one_line(std::string name) {
   for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
+    if (c == '\n' || c == '\r') c = '?';
   return name;
 }
 

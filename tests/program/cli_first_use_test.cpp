@@ -40,7 +40,7 @@ TEST_F(Cli, FailurePrintsItsMotionAndTheNextStep) {
   EXPECT_TRUE(says(call, "rejected motion: " + path("run/rejected/a.npz"))) << call.text;
   EXPECT_TRUE(says(call, "in " + path("run/report.html"))) << call.text;
   EXPECT_TRUE(says(call, "mimicx adapt trains policies where a plan fails")) << call.text;
-  EXPECT_TRUE(says(call, "mimicx audit --poses '" + path("a.npz") + "'")) << call.text;
+  EXPECT_TRUE(says(call, "mimicx audit --poses '" + path("run/references/a.npz") + "'")) << call.text;
 }
 
 TEST_F(Cli, QuietPrintsOnlyFailures) {
