@@ -68,7 +68,7 @@ TEST(WriteFile, AnInterruptLeavesNoTemporaryFile) {
 }
 
 TEST(DataErrors, AreOneLineWhateverTheFileIsCalled) {
-  EXPECT_STREQ(DataError("a\nb\x1b.npz", "line 1", "x", "y").what(), "a?b?.npz: line 1: expected x, found y");
+  EXPECT_STREQ(DataError("a\nb\r.npz", "line 1", "x", "y").what(), "a?b?.npz: line 1: expected x, found y");
 }
 
 TEST(Reason, OfTheStandardLibrarysErrorsIsInWords) {
