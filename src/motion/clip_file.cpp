@@ -157,7 +157,7 @@ void expect_axis_angle(const Member& member) {
   const auto& shape = member.array.shape;
   for (const auto& [numbers, name] :
        {std::pair<std::size_t, const char*>{4, "quaternions"}, {6, "6D rotations"}})
-    for (const std::size_t joints : {1, 21, 22, 23, 24, 52, 55})
+    for (const std::size_t joints : {1U, 21U, 22U, 23U, 24U, 52U, 55U})
       if (member.columns() == numbers * joints && (shape.size() == 2 || shape.back() == numbers))
         member.fail("rotations as axis-angle", member.shape() + ", " + name);
   if (shape.size() >= 3 && shape[shape.size() - 1] == 3 && shape[shape.size() - 2] == 3 && shape.size() != 3)
