@@ -1,7 +1,10 @@
 #include "pipeline/fine_tune.h"
 
+#include <utility>
+
 #include "pipeline/option_set_choice.h"
 #include "pipeline/train_motion.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -54,13 +57,13 @@ run::SimulatedSequence fine_tune(const motion::Reference& reference, const optio
   }
   run::SequenceJob rest = run::after_seconds(job, record::steady_seconds() - watch.started);
   rest.input_checksum = start_of_training(job, *sets[chosen.set], arranged.options);
+  rl::tracking::TrackingRollout before =
+      rl::tracking::roll_out(arranged.clip, tracking, rl::tracking::mean_action(arranged.agents));
+  const bool good_enough = training.stop_reward > 0.0 && before.mean_reward >= training.stop_reward;
   TrainingConfig tuning = training;
-  const rl::tracking::MeanAction untouched = rl::tracking::mean_action(arranged.agents);
-  const bool good_enough =
-      training.stop_reward > 0.0 &&
-      rl::tracking::roll_out(arranged.clip, tracking, untouched).mean_reward >= training.stop_reward;
   if (good_enough) tuning.samples = 0;
   run::SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, tuning, rest);
+  made.before = std::move(before);
   if (good_enough) made.ending = record::SequenceEnding::kThreshold;
   if (watch.timed_out) made.ending = record::SequenceEnding::kLimitSeconds;
   made.method = "options";

@@ -2,6 +2,7 @@
 
 #include "core/setting.h"
 #include "pipeline/train_motion.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -16,7 +17,10 @@ run::Method imitation_of(const ImitateConfig& config) {
   method.simulate = [&training = config.training](const motion::Reference& reference,
                                                   const run::SequenceJob& job) {
     const auto clip = rl::tracking::make_tracking_clip(reference, training.tracking);
-    run::SimulatedSequence made = train_sequence(clip, {untrained_agent(training)}, training, job);
+    const std::vector<rl::Agent> untrained = {untrained_agent(training)};
+    run::SimulatedSequence made = train_sequence(clip, untrained, training, job);
+    if (!made.interrupted)
+      made.before = rl::tracking::roll_out(clip, training.tracking, rl::tracking::mean_action(untrained));
     made.method = "imitate";
     return made;
   };

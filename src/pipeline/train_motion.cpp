@@ -22,7 +22,6 @@ run::SimulatedSequence train_sequence(const std::shared_ptr<const rl::tracking::
   made.ending = training.ending;
   made.samples = training.samples;
   made.agents = training.agents;
-  made.before = rl::tracking::roll_out(clip, config.tracking, rl::tracking::mean_action(agents));
   made.after =
       rl::tracking::roll_out(clip, config.tracking, rl::tracking::mean_action(training.agents), job.substeps);
   return made;
