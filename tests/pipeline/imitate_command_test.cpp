@@ -10,6 +10,7 @@
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
+#include "motion/test_split.h"
 #include "program/small_run.h"
 #include "run/results.h"
 
@@ -159,11 +160,8 @@ TEST_F(Imitate, ForcesExplainTheMotion) {
 }
 
 TEST_F(Imitate, Eq3UsesKeypointsOnlyIfFittedToThemOrRequested) {
-  motion::Clip clip =
-      motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz");
-  clip.rotations.resize(45), clip.trans.resize(45), clip.keypoints->uvc.resize(45);
   const std::string noisy = out("stand_1.npz").string();
-  motion::write_clip(noisy, clip);
+  motion::write_clip(noisy, test::beginning_of_stand("noisy", 45));
   const auto lowest_projection = [&](bool fit, bool unfitted_keypoints) {
     ImitateConfig config = small_run(out(fit                  ? "fitted"
                                          : unfitted_keypoints ? "requested"

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/setting_checks.h"
+#include "motion/test_split.h"
 #include "program/pretrained_options.h"
 #include "run/preparation.h"
 #include "run/results.h"
@@ -107,18 +108,10 @@ TEST_F(Pretrain, NamesUnreadableMotionsAndContinues) {
   EXPECT_NE(run::results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
 }
 
-/// A second and a half of a noisy motion with keypoints.
-motion::Clip noisy_stand() {
-  motion::Clip clip =
-      motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz");
-  clip.rotations.resize(45), clip.trans.resize(45), clip.keypoints->uvc.resize(45);
-  return clip;
-}
-
 TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
   motions = out("motions");
   std::filesystem::create_directories(motions);
-  motion::Clip clip = noisy_stand();
+  motion::Clip clip = test::beginning_of_stand("noisy", 45);
   motion::write_clip(motions / "stand_1.npz", clip);
   PretrainConfig config = pretraining("seen");
   config.clusters.clusters = 1;
@@ -156,7 +149,7 @@ TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid
 TEST_F(Pretrain, AsIsCorrectsNothing) {
   motions = out("motions");
   std::filesystem::create_directories(motions);
-  motion::write_clip(motions / "stand_1.npz", noisy_stand());
+  motion::write_clip(motions / "stand_1.npz", test::beginning_of_stand("noisy", 45));
   PretrainConfig config = pretraining("run");
   config.clusters.clusters = 1;
   config.correction.as_is = true;

@@ -9,6 +9,7 @@
 #include "files/policy_file.h"
 #include "judge/scores.h"
 #include "motion/clip_file.h"
+#include "motion/test_split.h"
 #include "plan/plan_command.h"
 #include "program/pretrained_options.h"
 #include "report/glossary.h"
@@ -264,19 +265,10 @@ TEST_F(Adapt, RecordsThresholdAndStallEndings) {
             record::SequenceEnding::kStall);
 }
 
-/// The first 30 frames of stand_1 of the test split: the truth, or the noisy one with its keypoints.
-motion::Clip beginning_of(const char* which) {
-  motion::Clip clip = motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test" /
-                                        which / "stand_1.npz");
-  clip.rotations.resize(30), clip.trans.resize(30);
-  if (clip.keypoints) clip.keypoints->uvc.resize(30);
-  return clip;
-}
-
 TEST_F(Adapt, ResultDoesNotDependOnTheTruth) {
   for (const char* which : {"truth", "noisy"}) {
     std::filesystem::create_directories(out("data") / which);
-    motion::write_clip(out("data") / which / "stand_1.npz", beginning_of(which));
+    motion::write_clip(out("data") / which / "stand_1.npz", test::beginning_of_stand(which, 30));
   }
   pretrain_once("options");
   AdaptConfig config = adapting("with", "options");
@@ -291,7 +283,7 @@ TEST_F(Adapt, ResultDoesNotDependOnTheTruth) {
 }
 
 TEST_F(Adapt, ResultDoesNotDependOnIgnoredKeypoints) {
-  motion::Clip clip = beginning_of("noisy");
+  motion::Clip clip = test::beginning_of_stand("noisy", 30);
   for (const char* folder : {"seen", "blind"}) {
     std::filesystem::create_directories(out(folder));
     motion::write_clip(out(folder) / "stand_1.npz", clip);

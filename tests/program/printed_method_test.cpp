@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/setting_checks.h"
+#include "motion/test_split.h"
 #include "program/pretrained_options.h"
 #include "record/table.h"
 #include "run/results.h"
@@ -21,10 +22,7 @@ struct PrintedMethod : PretrainedOptions {
     const bool first = std::filesystem::is_empty(made.path);
     if (first) {
       std::filesystem::copy(made_motions(), motions);
-      motion::Clip clip = motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) /
-                                            "data/synthetic/test/noisy/stand_1.npz");
-      clip.rotations.resize(45), clip.trans.resize(45), clip.keypoints->uvc.resize(45);
-      motion::write_clip(seen, clip);
+      motion::write_clip(seen, test::beginning_of_stand("noisy", 45));
       EXPECT_EQ(run(printed_options("options")), record::RunOutcome::kAllGood);
       run(printed("run", "options"));
     }
