@@ -6,6 +6,8 @@
 // The work is done by the program, compiled to WebAssembly, in a worker of its own: a call does not hold up the page.
 // Types and meanings: mimicx.d.ts; docs/javascript.md has examples.
 
+import {connect} from './connection.mjs';
+
 const in_node = typeof process === 'object' && Boolean(process.versions?.node);
 
 async function read_program() {
@@ -16,18 +18,10 @@ async function read_program() {
   return new Uint8Array(await answer.arrayBuffer());
 }
 
-// A worker, and a function that says who gets its messages and its errors.
-async function begin_worker() {
-  if (in_node) {
-    const {Worker} = await import('node:worker_threads');
-    const worker = new Worker(new URL('./worker_in_node.mjs', import.meta.url));
-    return [worker, (hear, fail) => worker.on('message', hear).on('error', fail)];
-  }
-  const worker = new Worker(new URL('./mimicx_worker.js', import.meta.url));
-  return [worker, (hear, fail) => {
-    worker.onmessage = ({data}) => hear(data);
-    worker.onerror = ({message}) => fail(new Error(message || 'the worker cannot be loaded'));
-  }];
+async function new_worker() {
+  if (!in_node) return new Worker(new URL('./mimicx_worker.js', import.meta.url));
+  const threads = await import('node:worker_threads');
+  return new threads.Worker(new URL('./worker_in_node.mjs', import.meta.url));
 }
 
 async function bytes_of(file) {
@@ -40,24 +34,15 @@ async function bytes_of(file) {
 // Asks a new worker, which is ended whatever comes of it.
 async function ask(what, file, {signal, write = [], ...options}, on_progress) {
   signal?.throwIfAborted();
-  const [bytes, wasm] = await Promise.all([bytes_of(file), read_program()]), [worker, listen] = await begin_worker();
-  let stop;
+  const [bytes, wasm] = await Promise.all([bytes_of(file), read_program()]);
+  const program = connect(await new_worker(), wasm, (doing) => on_progress?.(doing)), stop = () => program.end(signal.reason);
   try {
-    return await new Promise((done, fail) => {
-      stop = () => fail(signal.reason);
-      signal?.addEventListener('abort', stop);
-      if (signal?.aborted) stop();
-      listen(({told, ask: answered, answer}) => {
-        if (told !== undefined) { try { on_progress?.(told); } catch (error) { fail(error); } }
-        else if (answer.error !== undefined) fail(new Error(answer.error));
-        else if (answered === 'begin') worker.postMessage({ask: what, name: file.name, bytes, options, write});
-        else done(answer);
-      }, fail);
-      worker.postMessage({ask: 'begin', wasm});
-    });
+    signal?.addEventListener('abort', stop);
+    if (signal?.aborted) stop();
+    return (await program.ask({ask: what, name: file.name, bytes, options, write})).answer;
   } finally {
     signal?.removeEventListener('abort', stop);
-    worker.terminate();
+    program.end();
   }
 }
 

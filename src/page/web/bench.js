@@ -1,45 +1,22 @@
 // The page that cleans motions: it passes files to the program in a worker and adds the results to the report's tables
 // and player.
 
+// `worker` is the connection to the program, made by `connect` of the JavaScript module (javascript/connection.mjs);
 // `motions` are the dropped files that wait: [{name, read}], where read() returns the bytes.
-const bench = {worker: null, waiting: null, queue: [], ready: null, cleaned: 0, kept: [], motions: [], busy: false,
-               stops: 0};
-
-// Sends requests to the worker one at a time. @return the worker's answer
-function ask(what) {
-  return new Promise((answered) => {
-    bench.queue.push({what, answered});
-    send_next();
-  });
-}
-
-function send_next() {
-  if (bench.waiting || !bench.queue.length || !bench.worker) return;
-  bench.waiting = bench.queue.shift();
-  bench.worker.postMessage(bench.waiting.what);
-}
-
-function hear({data: said}) {
-  if (said.told !== undefined) { show_told(said.told, said.urgent); return; }
-  const {answered} = bench.waiting;
-  bench.waiting = null;
-  answered(said);
-  if (said.ended) begin_worker();
-  send_next();
-}
+const bench = {connect: null, worker: null, cleaned: 0, kept: [], motions: [], busy: false, stops: 0};
+const worker_address = URL.createObjectURL(new Blob([$('worker').textContent], {type: 'text/javascript'}));
 
 // Starts a worker and restores in it the motions of earlier workers, with the same numbers.
-async function begin_worker() {
-  if (bench.worker) bench.worker.terminate();
-  for (const {answered} of [bench.waiting, ...bench.queue].filter(Boolean)) answered({answer: {error: 'stopped'}});
-  Object.assign(bench, {waiting: null, queue: []});
-  const address = URL.createObjectURL(new Blob([$('worker').textContent], {type: 'text/javascript'}));
-  bench.worker = new Worker(address);
-  bench.worker.onmessage = hear;
-  bench.ready = unpacked('program').then((wasm) => ask({ask: 'begin', wasm}))
-      .then(() => Promise.all(bench.kept.map((run) => ask({ask: 'take_up', ...run}))));
-  await bench.ready;
-  URL.revokeObjectURL(address);
+function begin_worker() {
+  bench.worker?.end(new Error('stopped'));
+  bench.worker = bench.connect(new Worker(worker_address), unpacked('program'), show_told);
+  bench.kept.forEach((run) => ask({ask: 'take_up', ...run}));
+}
+
+// @return what the worker sends back: {answer}, where a failure is {error}, and for some requests bytes or files
+function ask(what) {
+  if (bench.worker.ended()) begin_worker();
+  return bench.worker.ask(what).catch(({message}) => ({answer: {error: message}}));
 }
 
 // ---- messages -------------------------------------------------------------------------------------
@@ -87,7 +64,6 @@ async function clean({name, read}) {
   show_working(name);
   const bytes = await read().catch(() => null);
   if (!bytes) { show_failure('cannot be read', name); return null; }
-  await bench.ready;
   const {answer, files} = stops === bench.stops ? await ask({ask: 'plan', name, bytes}) : {answer: {error: 'stopped'}};
   if (answer.error) { show_failure(answer.error, stops === bench.stops ? name : ''); return null; }
   bench.kept[answer.number] = {name, files};
@@ -131,22 +107,15 @@ function stop_all() {
 
 const row_shown = () => data.rows[player.index];
 
-async function saved_bytes(suffix) {
-  const {bytes, answer} = await ask({ask: 'save', number: row_shown().number, suffix});
-  if (!bytes) throw new Error(answer.error);
-  return bytes;
-}
-
 async function save_as(suffix) {
+  const {name, number} = row_shown();
   if (bench.busy) $('save-message').textContent = 'saved as soon as the motion in work is done';
-  try {
-    const bytes = await saved_bytes(suffix), address = URL.createObjectURL(new Blob([bytes]));
-    make('a', {href: address, download: `${row_shown().name}.clean${suffix}`}).click();
-    setTimeout(() => URL.revokeObjectURL(address), 10000);
-    $('save-message').textContent = '';
-  } catch (error) {
-    $('save-message').textContent = error.message;
-  }
+  const {bytes, answer} = await ask({ask: 'save', number, suffix});
+  $('save-message').textContent = bytes ? '' : answer.error;
+  if (!bytes) return;
+  const address = URL.createObjectURL(new Blob([bytes]));
+  make('a', {href: address, download: `${name}.clean${suffix}`}).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
 // Updates the buttons. Playing needs the worker, so it is disabled while motions are cleaned.
@@ -156,7 +125,8 @@ function show_after() {
   $('save-message').textContent = '';
 }
 
-function begin_bench() {
+// Called by the page's last script, which has `connect`.
+function begin_bench(connect) {
   document.title = 'mimicx';
   document.querySelector('h1').textContent = 'mimicx';
   document.body.classList.add('empty');
@@ -174,5 +144,6 @@ function begin_bench() {
   $('stop').onclick = stop_all;
   for (const button of $('after').querySelectorAll('[data-suffix]')) button.onclick = () => save_as(button.dataset.suffix);
   addEventListener('hashchange', () => { stop_playing(); show_after(); });
+  bench.connect = connect;
   begin_worker();
 }

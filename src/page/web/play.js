@@ -190,6 +190,3 @@ function begin_play_panel() {
   $('own-shape').onclick = take_own_shape;
   for (const button of $('pushes').querySelectorAll('[data-push]')) button.onclick = () => push_towards(button.dataset.push);
 }
-
-begin_bench();
-begin_play_panel();

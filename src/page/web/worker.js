@@ -1,7 +1,7 @@
-// The worker of the page and of the JavaScript module (javascript/mimicx.mjs): it runs the program, compiled to
-// WebAssembly, and passes messages between it and them. Every answer is the program's own.
+// The worker of the page and of the JavaScript module: it runs the program, compiled to WebAssembly, and passes messages
+// between it and javascript/connection.mjs. Every answer is the program's own.
 //
-// They ask {ask, …}, an answer is {ask, answer} or {ask, bytes}; while the program works it tells {told, urgent}.
+// A request is {ask, …}, an answer {answer} or {bytes}; while the program works it tells {told, urgent}.
 
 let program = null;
 
@@ -134,13 +134,13 @@ async function begin(wasm) {
 
 globalThis.onmessage = async ({data: {ask, ...what}}) => {
   try {
-    if (ask === 'begin') postMessage({ask, answer: await begin(what.wasm)});
-    else if (ask === 'save') postMessage({ask, ...save(what)});
-    else if (ask === 'plan') postMessage({ask, ...plan(what)});
-    else if (ask === 'clean') postMessage({ask, answer: answered(clean, what)});
-    else if (ask === 'audit') postMessage({ask, answer: answered(audit, what)});
-    else { calls[ask](what); postMessage({ask, answer: answer()}); }
+    if (ask === 'begin') postMessage({answer: await begin(what.wasm)});
+    else if (ask === 'save') postMessage(save(what));
+    else if (ask === 'plan') postMessage(plan(what));
+    else if (ask === 'clean') postMessage({answer: answered(clean, what)});
+    else if (ask === 'audit') postMessage({answer: answered(audit, what)});
+    else { calls[ask](what); postMessage({answer: answer()}); }
   } catch (error) {  // a trap: the program has ended
-    postMessage({ask, answer: {error: `the program has stopped: ${error && error.message || error}`}, ended: true});
+    postMessage({answer: {error: `the program has stopped: ${error && error.message || error}`}, ended: true});
   }
 };
