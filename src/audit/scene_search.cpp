@@ -18,7 +18,10 @@ constexpr double kSpeedSpan = 0.067;   // speeds are means over twice this, s
 constexpr double kStands = 0.13;       // s
 constexpr double kSits = 0.3;          // s
 constexpr double kLowestPlate = 0.09;  // m; heights of estimated motions wander by less
-constexpr double kSameHeight = 0.05;   // of the feet on one plate, m
+constexpr double kSameHeight = 0.07;   // of the feet on one plate, m
+constexpr double kSideBySide = 0.07;   // feet whose heights differ by less may stand on one plate, m
+constexpr int kFlight = 3;             // steps of equal rises, or more
+constexpr double kUnequalRise = 0.05;  // of an estimated step from its place in such a flight, m
 constexpr double kSameSeat = 0.4;      // from its middle to that of another one, m
 constexpr double kRises = 0.15;        // of a standing foot, m/s
 constexpr double kReach = 0.03;        // a point so far over the ground touches it, m
@@ -26,12 +29,14 @@ constexpr double kMissing = 0.15;      // W
 constexpr double kOnOneFoot = 0.7;     // share of a step's frames in which less may be missing
 constexpr double kSeatMissing = 0.06, kSeatExplained = 0.03;  // W
 constexpr double kExplained = 0.10;                           // W
+constexpr double kCarries = 0.6;                              // of a step, W
+constexpr double kRemains = 0.3;                              // of what is missing without a step
 constexpr double kMargin = 0.06,
                  kStepAside = 0.15;   // of a plate beyond the points that use it; of a step to the sides, m
 constexpr double kLevelThigh = 0.55;  // largest sine of its slope
 constexpr double kLowestSeat = 0.20;  // m
 constexpr double kWindow = 0.2;       // of the needs, s
-constexpr double kCushion = 2e4, kCushionDamping = 1e3;  // of a seat, N/m, N·s/m
+constexpr double kCushion = 5e4, kCushionDamping = 1.6e3;  // of a seat, N/m, N·s/m
 
 /// Points that push together while a foot stands or hips rest.
 struct Stance {
@@ -155,6 +160,20 @@ std::vector<Stance> stances(const SupportedMotion& e) {
   return found;
 }
 
+/// How much higher the left foot of an estimate is than the right one, from the frames in which both stand at
+/// nearly one height, m; 0 without such frames.
+double left_over_right(const SupportedMotion& e, const std::vector<Stance>& all) {
+  std::vector<double> differences;
+  for (const Stance& left : all)
+    for (const Stance& right : all)
+      if (left.points.front() == 0 && right.points.front() != 0)
+        for (int t = std::max(left.first, right.first); t <= std::min(left.last, right.last); ++t) {
+          const double difference = e.sole_height(t, left.points) - e.sole_height(t, right.points);
+          if (std::abs(difference) < kSideBySide) differences.push_back(difference);
+        }
+  return differences.empty() ? 0.0 : median(differences);
+}
+
 /// The stances of one plate.
 using Group = std::vector<Stance>;
 
@@ -264,10 +283,37 @@ std::string plate_in_words(const char* what, double height, const char* under, i
   return text;
 }
 
+/// The steps of a flight rise equally (building codes allow a centimetre between them), which says more of
+/// their heights than an estimate does. Heights over the floor that may be r, 2 r, 3 r … become so, with r by
+/// least squares.
+/// @param heights  of the steps, m, in any order; more than one step may have a height
+void make_rises_equal(std::vector<double>& heights) {
+  std::vector<double> sorted = heights;
+  std::sort(sorted.begin(), sorted.end());
+  const auto level = [&](double height) {  // 1 for the lowest
+    int k = 1;
+    for (std::size_t i = 0; i + 1 < sorted.size() && sorted[i] < height; ++i)
+      if (sorted[i + 1] - sorted[i] > kSameHeight) ++k;
+    return k;
+  };
+  double sum = 0.0, squares = 0.0;
+  for (const double height : heights) {
+    sum += level(height) * height;
+    squares += level(height) * level(height);
+  }
+  const double rise = sum / squares;
+  if (heights.empty() || level(sorted.back()) < kFlight ||
+      std::any_of(heights.begin(), heights.end(),
+                  [&](double height) { return std::abs(height - level(height) * rise) > kUnequalRise; }))
+    return;
+  for (double& height : heights) height = level(height) * rise;
+}
+
 /// @param all  stances
 void find_steps(const SupportedMotion& e, const std::vector<Stance>& all, FoundScene& found,
                 std::vector<Group>& accepted) {
   const std::vector<Group> groups = raised_groups(all, found.floor);
+  std::vector<double> loads, heights;
   for (const Group& group : groups) {
     std::vector<double> without, with, carried;
     std::vector<int> points;
@@ -279,9 +325,17 @@ void find_steps(const SupportedMotion& e, const std::vector<Stance>& all, FoundS
       with.push_back(rest.missing);
       carried.push_back(rest.carried);
     }
-    if (without.empty() || quantile(without, kOnOneFoot) < kMissing || median(with) > kExplained) continue;
-    const double height = group_height(group) - found.floor;
-    Plate plate = plate_under(e, group, toes_of(e, group), height, kStepAside);
+    if (without.empty()) continue;
+    const double missing = quantile(without, kOnOneFoot), remains = median(with), load = median(carried);
+    if (missing < kMissing || remains > std::max(kExplained, kRemains * missing) || load < kCarries) continue;
+    accepted.push_back(group);
+    heights.push_back(group_height(group) - found.floor);
+    loads.push_back(load);
+  }
+  make_rises_equal(heights);
+  for (std::size_t k = 0; k < accepted.size(); ++k) {
+    const Group& group = accepted[k];
+    Plate plate = plate_under(e, group, toes_of(e, group), heights[k], kStepAside);
     cut_where_feet_stand_lower(e, all, found.floor, plate);
     found.scene.plates.push_back(plate);
     int last = 0;
@@ -290,12 +344,11 @@ void find_steps(const SupportedMotion& e, const std::vector<Stance>& all, FoundS
       last = std::max(last, stance.last);
       (stance.points.front() == 0 ? left : right) = true;
     }
-    found.words.push_back(plate_in_words("step", height,
+    found.words.push_back(plate_in_words("step", heights[k],
                                          left && right ? "feet"
                                          : left        ? "left foot"
                                                        : "right foot",
-                                         group.front().first, last, median(carried)));
-    accepted.push_back(group);
+                                         group.front().first, last, loads[k]));
   }
 }
 
@@ -364,7 +417,9 @@ FoundScene find_scene(const motion::Clip& clip) {
   const SupportedMotion e(clip);
   FoundScene found;
   std::vector<double> lowest;
-  const std::vector<Stance> all = stances(e);
+  std::vector<Stance> all = stances(e);
+  const double uneven = left_over_right(e, all);
+  for (Stance& stance : all) stance.height -= (stance.points.front() == 0 ? 0.5 : -0.5) * uneven;
   for (const Stance& stance : all) lowest.push_back(stance.height);
   if (lowest.empty())
     for (int t = 0; t < e.frames(); ++t)

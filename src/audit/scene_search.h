@@ -7,7 +7,9 @@
 ///
 /// *Steps.* A foot stands if it is slow for at least 0.13 s. Feet that stand one after the other at nearly
 /// the same height, more than 9 cm over the lowest height at which a foot stands, are one candidate. It is a
-/// plate if the rest falls from more than 0.15 W without it to less than 0.1 W with it.
+/// plate if it carries more than 0.6 W and the rest falls from more than 0.15 W without it to less than 0.1
+/// W, or less than three tenths, with it. Heights are corrected for an estimate that has one foot higher than
+/// the other, and those of a flight of three or more steps for unequal rises.
 ///
 /// *Seats.* Where a rest remains although every slow foot may push, for at least 0.3 s, while hips are slow
 /// and the thighs nearly level, a seat under pelvis and thighs is tried by the same two bounds.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -75,7 +76,7 @@ TEST(FindScene, FindsTheSeatAsACushionUnderTheHips) {
   ASSERT_EQ(found.scene.plates.size(), 1u);
   const Plate& seat = found.scene.plates.front();
   EXPECT_NEAR(seat.height - seat.give(), k.scene.plates.front().height, 0.02);
-  EXPECT_GT(seat.give(), 0.005);
+  EXPECT_GT(seat.give(), 0.003);
   EXPECT_TRUE(k.scene.plates.front().spans({seat.centre.x(), seat.centre.y(), 0.0}));
   EXPECT_EQ(found.words.front().rfind("a seat of 0.", 0), 0u) << found.words.front();
   EXPECT_NE(found.words.front().find("under the pelvis, frames "), std::string::npos);
@@ -89,15 +90,34 @@ TEST(FindScene, FindsNothingWhereTheFloorIsEnough) {
   }
 }
 
-TEST(FindScene, FindsStepsOfANoisyEstimate) {
-  const FoundScene found = find_scene(noisy("stairs_up"));
-  synth::SynthConfig config;
-  config.kind = "stairs_up";
-  config.seed = 1;
-  const Scene truth = synth::synthesize(config).scene;
-  ASSERT_EQ(found.scene.plates.count(), truth.plates.count());
-  for (int i = 0; i < truth.plates.count(); ++i)
-    EXPECT_NEAR(found.scene.plates[i].height, truth.plates[i].height, 0.05);
+// The bound of docs/scenes.md, "Finding the scene". In these estimates one foot is up to 5 cm higher than the
+// other.
+TEST(FindScene, FindsNineOfTenNoisyStepsToTwoCentimetres) {
+  int plates = 0, near = 0, found_plates = 0;
+  for (const std::string kind : {"stairs_up", "stairs_down", "kerb", "box"})
+    for (const std::uint64_t seed : {7, 8}) {
+      SCOPED_TRACE(kind + " " + std::to_string(seed));
+      synth::SynthConfig config;
+      config.kind = kind;
+      config.seed = seed;
+      const synth::SynthPair pair = synth::make_synth_pair(config, {});
+      const Scene found = find_scene(pair.noisy).scene;
+      plates += pair.truth.scene.plates.count();
+      found_plates += found.plates.count();
+      for (const Plate& plate : pair.truth.scene.plates)
+        near += std::any_of(found.plates.begin(), found.plates.end(), [&](const Plate& estimate) {
+          return std::abs(estimate.height - plate.height) < 0.02;
+        });
+    }
+  EXPECT_GE(10 * near, 9 * plates);
+  EXPECT_LE(found_plates, plates);
+}
+
+TEST(FindScene, StepsOfAFlightRiseEqually) {
+  const Scene found = find_scene(noisy("stairs_up")).scene;
+  ASSERT_GE(found.plates.count(), 3);
+  for (int i = 0; i < found.plates.count(); ++i)
+    EXPECT_NEAR(found.plates[i].height, (i + 1) * found.plates[0].height, 1e-12);
 }
 
 TEST(FindScene, RefusesTwoFrames) {
