@@ -18,12 +18,11 @@ namespace {
 
 motion::MotionSamples samples_of(const motion::Clip& clip) { return samples_at(clip, clip.fps); }
 
-/// Where one of the two motions says on what ground it stands, the other stands there, too.
-/// @throws DataError where they say different things
-void share_scene(const std::filesystem::path& path, motion::Clip& a, motion::Clip& b) {
+/// A motion that does not say on what ground it stands, stands where the other one does. The grounds may
+/// differ: a fit moves its scene with it, and scenes that are found are near the true ones.
+void share_scene(motion::Clip& a, motion::Clip& b) {
   if (a.scene.flat()) a.scene = b.scene;
   if (b.scene.flat()) b.scene = a.scene;
-  if (a.scene != b.scene) throw DataError(path.string(), "scene", "the scene of the truth", "another scene");
 }
 
 /// @throws DataError
@@ -39,7 +38,7 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const 
     require_truth(files);
     motion::Clip clip = import::read_motion(files.motion, read),
                  known = import::read_motion(files.truth, read);
-    share_scene(files.motion, clip, known);
+    share_scene(clip, known);
     const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
                                 truth = samples_at(known, motion::kMetricRate);
     result.frames = evaluated.frames();
@@ -105,7 +104,7 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
 PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read) {
   require_truth(pair);
   motion::Clip clip = import::read_motion(pair.motion, read), known = import::read_motion(pair.truth, read);
-  share_scene(pair.motion, clip, known);
+  share_scene(clip, known);
   return {samples_of(clip), samples_of(known)};
 }
 

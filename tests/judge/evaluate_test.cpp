@@ -47,6 +47,22 @@ TEST_F(Evaluate, ShiftedMotionScoresItsShift) {
   EXPECT_NEAR(metric(e.motions[0], "MPJPE"), 0.0, 1e-6);
 }
 
+// A fit moves the scene with the motion: on a box of 0.3 m both stand, here and 3 cm farther.
+TEST_F(Evaluate, EachMotionStandsOnItsOwnScene) {
+  motion::Clip clip = motion::standing_clip(20);
+  clip.scene.plates.push_back({.half_extents = {0.5, 0.5}, .height = 0.3});
+  for (auto& t : clip.trans) t.z() += 0.3;
+  motion::write_clip(truth / "box.npz", clip);
+  for (auto& t : clip.trans) t.x() += 0.03;
+  clip.scene.plates[0].centre.x() += 0.03;
+  motion::write_clip(motions / "box.npz", clip);
+  const EvaluatedMotion box = evaluate_folders(truth, motions).motions.at(0);
+  ASSERT_TRUE(box.ok) << box.reason;
+  EXPECT_NEAR(metric(box, "MRPE"), 30.0, 1e-6);
+  EXPECT_LT(metric(box, "GP"), 1.0);
+  EXPECT_LT(metric(box, "Float"), 1.0);
+}
+
 // A slide of 10 mm per frame at 30 fps is one of 2.5 mm at 120.
 TEST_F(Evaluate, ScoresMotionsOfAnotherRateAt30Fps) {
   motion::Clip clip = motion::standing_clip(21);
