@@ -112,9 +112,10 @@ void export_options(const AskedOptions& asked, const Character& body,
                     std::vector<policy_export::ExportedPolicy>& exported) {
   const auto set = pipeline::options::read_options(asked.file);
   const std::string file = asked.file.string();
-  if (set->actions != rl::tracking::ActionSettings())
-    throw DataError(file, "", "options whose actions are rotations on the target's pose",
-                    "options of residual_actions=0, velocity_feed_forward=0 or target_ramp=0");
+  if (const rl::tracking::ActionSettings exported_actions; set->actions != exported_actions)
+    throw DataError(file, "",
+                    "policies trained with " + pipeline::options::actions_in_words(exported_actions),
+                    pipeline::options::actions_in_words(set->actions));
   const int count = set->options.count();
   if (asked.number && *asked.number >= count)
     throw UsageError(file + " has the options 0 to " + std::to_string(count - 1) + ", no option" +

@@ -94,20 +94,14 @@ std::vector<std::filesystem::path> clusters_of(const pipeline::options::OptionSe
   return files;
 }
 
-std::string settings_in_words(const rl::tracking::ActionSettings& actions) {
-  return std::string("residual_actions=") +
-         (actions.mode == rl::tracking::ActionMode::kResidual ? "1" : "0") +
-         ", velocity_feed_forward=" + (actions.velocity_feed_forward ? "1" : "0") +
-         ", target_ramp=" + (actions.ramp ? "1" : "0");
-}
-
 /// @throws std::invalid_argument for options whose policies were trained with other actions
 void require_actions(const AdaptConfig& config) {
   const rl::tracking::ActionSettings& actions = config.training.tracking.actions;
   for (const auto& set : config.options)
     if (set->actions != actions)
-      throw std::invalid_argument("options: expected policies trained with " + settings_in_words(actions) +
-                                  ", found " + settings_in_words(set->actions));
+      throw std::invalid_argument("options: expected policies trained with " +
+                                  pipeline::options::actions_in_words(actions) + ", found " +
+                                  pipeline::options::actions_in_words(set->actions));
 }
 
 const char* name_of(AdaptMethod method) {

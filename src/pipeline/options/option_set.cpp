@@ -104,4 +104,11 @@ OptionSet options_from(const Npz& archive) {
   return set;
 }
 
+std::string actions_in_words(const rl::tracking::ActionSettings& actions) {
+  return std::string("residual_actions=") +
+         (actions.mode == rl::tracking::ActionMode::kResidual ? "1" : "0") +
+         ", velocity_feed_forward=" + (actions.velocity_feed_forward ? "1" : "0") +
+         ", target_ramp=" + (actions.ramp ? "1" : "0");
+}
+
 }  // namespace mimicx::pipeline::options

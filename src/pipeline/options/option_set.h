@@ -47,5 +47,7 @@ void write_options(const std::filesystem::path& path, const OptionSet& set);
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path);
 /// The same from an archive; without a checksum.
 OptionSet options_from(const Npz& archive);
+/// "residual_actions=1, velocity_feed_forward=1, target_ramp=1".
+std::string actions_in_words(const rl::tracking::ActionSettings& actions);
 
 }  // namespace mimicx::pipeline::options
