@@ -11,13 +11,14 @@ Simulator are its own numbers.
 """
 import ctypes
 import json
+import operator
 import os
 import pathlib
 
 import numpy as np
 
-__all__ = ["BODIES", "PARENTS", "Error", "Motion", "Result", "Run", "RunMotions", "Simulator", "audit", "clean", "load",
-           "version"]
+__all__ = ["BODIES", "PARENTS", "Error", "Motion", "Result", "Run", "RunMotions", "Simulator", "Stopped", "audit", "clean",
+           "load", "version"]
 
 _ABI = 1
 _OK, _FAILED, _NOT_FOLLOWED, _STOPPED = range(4)
@@ -25,6 +26,17 @@ _OK, _FAILED, _NOT_FOLLOWED, _STOPPED = range(4)
 
 class Error(RuntimeError):
     """What the library says where something cannot be done."""
+
+
+class Stopped(Error):
+    """The progress function has stopped the work."""
+
+
+class _Owner:
+    """Has a handle of the library, which belongs to one process and one object."""
+
+    def __reduce_ex__(self, _):
+        raise TypeError(f"mimicx: a {type(self).__name__} can be neither copied nor pickled: its numbers are in the library")
 
 
 class _Array(ctypes.Structure):
@@ -91,7 +103,7 @@ def _view(array, owner):
     return np.frombuffer(buffer, dtype).reshape(shape)
 
 
-class Motion:
+class Motion(_Owner):
     """A motion in the library: read or put, then cleaned, audited, written. `Motion(path)` reads a file.
 
     Options, as keywords: threads, fit, as_is, limit_seconds, up, scale, fps, floor, body, root, person, and every setting
@@ -126,7 +138,7 @@ class Motion:
         """Gives the motion a member as an .npz file has it (docs/formats.md): numbers, a text or a list of texts."""
         values = np.asarray(values)
         if values.dtype.kind in "US":
-            texts = [str(text).encode() for text in np.atleast_1d(values)]
+            texts = [text if isinstance(text, bytes) else str(text).encode() for text in np.atleast_1d(values).tolist()]
             self._check(_lib.mimicx_motion_put_text(self._handle, name.encode(),
                                                     (ctypes.c_char_p * len(texts))(*texts), len(texts)))
             return
@@ -137,20 +149,21 @@ class Motion:
 
     def clean(self, progress=None):
         """Cleans the motion, which then is the simulated one.
-        @param progress  called with a text that says what is done; True stops it, and KeyboardInterrupt is raised
-        @return whether the body followed the motion to its end"""
+        @param progress  called with a text that says what is done; it stops the work by returning True
+        @return whether the body followed the motion to its end
+        @raise Stopped where `progress` returned True; what it raises, and KeyboardInterrupt"""
         failure = []
 
         def tell(doing, _):
             try:
-                return 1 if progress is not None and progress(doing.decode(errors="replace")) else 0
+                return int(progress is not None and progress(doing.decode(errors="replace")) is True)
             except BaseException as error:  # an interrupt, too: nothing passes through C
                 failure.append(error)
                 return 1
 
         status = self._check(_lib.mimicx_motion_clean(self._handle, _Progress(tell), None))
         if status == _STOPPED:
-            raise failure[0] if failure else KeyboardInterrupt("mimicx: stopped")
+            raise failure[0] if failure else Stopped("stopped by the progress function")
         return status == _OK
 
     @property
@@ -198,13 +211,14 @@ class Motion:
         return ctypes.string_at(data, size.value)
 
     def save(self, path):
-        """Writes it; the suffix is the format."""
+        """Writes it; the suffix is the format, as for `bytes`."""
         data = self.bytes(pathlib.Path(path).suffix)
         pathlib.Path(path).write_bytes(data)
 
 
 class Result(dict):
-    """The arrays of a cleaned motion by name, and what else is known of it."""
+    """The arrays of a cleaned motion by name, at 30 frames per second, and what else is known of it. A copy, and what is
+    sent to another process, has no `motion`."""
 
     def __init__(self, motion, followed):
         super().__init__(motion.arrays())
@@ -212,10 +226,18 @@ class Result(dict):
         self.followed = followed    #: whether the body followed the motion to its end
         self.record = motion.record
         self.metrics = self.record.get("metrics", {})  #: docs/metrics.md, against the prepared reference
+        self.notes = self.record.get("notes", [])      #: what was odd: keypoints that were ignored, a body that is unknown
+
+    def __getstate__(self):
+        return {**self.__dict__, "motion": None}
 
 
 def _put(poses, trans, betas, fps, keypoints, camera, body_model, options):
     poses, trans = np.asarray(poses, dtype=np.float64), np.asarray(trans, dtype=np.float64)
+    if poses.ndim < 2 or not poses.size:
+        raise ValueError(f"poses: expected (T, 66) or (T, 22, 3), found {poses.shape}")
+    if keypoints is not None and camera is None:
+        raise ValueError("camera: expected (intrinsics, extrinsics) with keypoints, found none")
     motion = Motion(**options)
     motion.put("poses", poses.reshape(len(poses), -1))
     motion.put("trans", trans)
@@ -241,12 +263,15 @@ def clean(poses, trans, betas=None, fps=30, keypoints=None, camera=None, body_mo
     """Cleans a motion, as `mimicx plan` does.
 
     @param poses      (T, 66), (T, 22, 3) or more columns, as SMPL, SMPL-H and SMPL-X have them: axis-angle, rad
-    @param trans      (T, 3) m    @param betas  (10,)    @param fps  frames per second
+    @param trans      (T, 3) m    @param fps  frames per second
+    @param betas      (10,) of our own body (body_model "mimicx"); those of SMPL have no meaning without its model, and a
+                      note says that they are ignored
     @param keypoints  (T, K, 3): u, v in pixels, confidence; or {name: (T, 3)}    @param camera  (3, 3) intrinsics and
                       (4, 4) or (T, 4, 4) extrinsics, world to camera; needed with keypoints
-    @param body_model "mimicx" for our own body; by default that of the columns
+    @param body_model "mimicx" for our own body, "smpl", "smplh" or "smplx"; by default that of the columns
     @param progress   as Motion.clean    @param options  as Motion
-    @return Result; result.followed says whether the body followed to the end
+    @return Result, at 30 frames per second; result.followed says whether the body followed to the end, result.notes what
+            was odd
     @raise Error where no motion could be made"""
     motion = _put(poses, trans, betas, fps, keypoints, camera, body_model, options)
     return Result(motion, motion.clean(progress))
@@ -262,7 +287,7 @@ def audit(poses, trans, betas=None, fps=30, body_model=None, **options):
     return _put(poses, trans, betas, fps, None, None, body_model, options).audit()
 
 
-class Simulator:
+class Simulator(_Owner):
     """A simulated body. Its arrays are its own numbers: write to them between steps.
 
     root_position (3,), root_velocity (3,), rotations (22, 4), spins (22, 3), target_rotations (22, 4), target_spins
@@ -279,14 +304,20 @@ class Simulator:
             raise ValueError(f"betas: expected 10 numbers, found the shape {shape.shape}")
         self._handle = _lib.mimicx_simulator_new(None if shape is None else shape.ctypes.data)
         if not self._handle:
-            raise Error("the shape of no body")
+            raise Error("betas: expected numbers between -5 and 5")
         self._life = _Life(self._handle)
         for name, value in settings.items():
             self.set(name, value)
         for name in self.NAMES:
             array = _Array()
             self._check(_lib.mimicx_simulator_array(self._handle, name.encode(), ctypes.byref(array)))
-            setattr(self, name, _view(array, self._life))
+            self.__dict__[name] = _view(array, self._life)
+
+    def __setattr__(self, name, value):
+        if name in self.NAMES:
+            getattr(self, name)[...] = value
+        else:
+            super().__setattr__(name, value)
 
     def _check(self, status):
         if status != _OK:
@@ -302,6 +333,8 @@ class Simulator:
 
     def step(self, steps=1):
         """Does physics steps, 240 a second by default. @raise Error where the simulation fails; it is as before then"""
+        if not 0 <= operator.index(steps) < 2**31:
+            raise ValueError(f"steps: expected a whole number from 0, found {steps}")
         self._check(_lib.mimicx_simulator_step(self._handle, steps))
 
 
@@ -330,7 +363,9 @@ class Run:
         return iter(self.entries)
 
     def arrays(self, entry):
-        """The arrays of an entry's motion."""
+        """The arrays of an entry's motion. @raise Error where it has none"""
+        if not entry["output"]:
+            raise Error(f"{entry['name']}: {entry['reason']}")
         with np.load(self.folder / entry["output"], allow_pickle=False) as archive:
             return {name: archive[name] for name in archive.files}
 
@@ -341,19 +376,29 @@ class Run:
 
 class RunMotions:
     """Stretches of equal length of all motions of a run that were followed, as a data set for training:
-    torch.utils.data.DataLoader takes it as it is. Item k is {member: float32 (frames, ...)}."""
+    torch.utils.data.DataLoader takes it as it is. Item k is {member: float32 (frames, ...)}; members that are not per
+    frame, such as betas, are whole."""
 
     def __init__(self, folder, frames=60, stride=None, members=("poses", "trans", "joint_torques", "ground_wrenches")):
-        self.frames, self.members, self._motions, self._places = frames, tuple(members), [], []
-        for _, arrays in Run(folder).motions():
-            motion = {name: np.asarray(arrays[name], dtype=np.float32) for name in self.members}
-            count = len(motion[self.members[0]])
-            self._places += [(len(self._motions), start) for start in range(0, count - frames + 1, stride or frames)]
+        stride = frames if stride is None else stride
+        if min(frames, stride) < 1:
+            raise ValueError(f"frames, stride: expected at least 1, found {frames}, {stride}")
+        self.frames, self._motions, self._places = frames, [], []
+        for entry, arrays in Run(folder).motions():
+            if missing := [name for name in members if name not in arrays]:
+                raise KeyError(f"{entry['name']}: expected the member {missing[0]}, found {', '.join(arrays)}")
+            count = len(arrays["poses"])
+            motion = {name: (np.asarray(arrays[name], dtype=np.float32), arrays[name].shape[:1] == (count,))
+                      for name in members}
+            self._places += [(len(self._motions), start) for start in range(0, count - frames + 1, stride)]
             self._motions.append(motion)
+        if not self._places:
+            raise ValueError(f"{folder}: expected a motion of {frames} frames or more that was followed, found none")
 
     def __len__(self):
         return len(self._places)
 
     def __getitem__(self, k):
         motion, start = self._places[k]
-        return {name: values[start:start + self.frames] for name, values in self._motions[motion].items()}
+        return {name: values[start:start + self.frames] if per_frame else values
+                for name, (values, per_frame) in self._motions[motion].items()}

@@ -2,8 +2,10 @@
 """python/mimicx.py over the built library.
   mimicx_module_test.py MODULE LIBRARY PROGRAM MOTION.npz      status 77 where NumPy is not there
 """
+import copy
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -47,6 +49,16 @@ class Cleaning(unittest.TestCase):
             self.assertEqual(len(stretches), 5)
             self.assertEqual(stretches[4]["ground_wrenches"].shape, (10, 22, 6))
             np.testing.assert_array_equal(stretches[1]["trans"], arrays["trans"][5:15].astype(np.float32))
+            shaped = mimicx.RunMotions(folder + "/run", frames=5, members=("betas", "poses"))
+            self.assertEqual(len(shaped), N // 5)
+            np.testing.assert_array_equal(shaped[1]["betas"], arrays["betas"].astype(np.float32))
+            for wrong in ({"frames": N + 1}, {"stride": -1}):
+                with self.assertRaises(ValueError):
+                    mimicx.RunMotions(folder + "/run", **wrong)
+            with self.assertRaisesRegex(KeyError, "wings"):
+                mimicx.RunMotions(folder + "/run", members=("wings",))
+            with self.assertRaisesRegex(mimicx.Error, "lost"):
+                run.arrays({"name": "lost", "output": "", "reason": "fell"})
 
     def test_arrays_are_cleaned_and_outlive_the_motion(self):
         told = []
@@ -64,14 +76,21 @@ class Cleaning(unittest.TestCase):
     def test_keypoints_by_name_are_fitted(self):
         names, points = FILE["keypoint_names"], FILE["keypoints_2d"][:N]
         extrinsics = FILE["camera_extrinsics"]
-        result = beginning(keypoints={str(n): points[:, k] for k, n in enumerate(names)},
-                           camera=(FILE["camera_intrinsics"], extrinsics if extrinsics.ndim == 2 else extrinsics[:N]))
+        camera = (FILE["camera_intrinsics"], extrinsics if extrinsics.ndim == 2 else extrinsics[:N])
+        result = beginning(keypoints={str(n): points[:, k] for k, n in enumerate(names)}, camera=camera)
         self.assertIn("residual_after_percent", result.record["fit"])
+        in_bytes = beginning(keypoints={str(n).encode(): points[:, k] for k, n in enumerate(names)}, camera=camera)
+        np.testing.assert_array_equal(in_bytes["poses"], result["poses"])
+        unknown = beginning(keypoints={f"tentacle{k}": points[:, k] for k in range(len(names))}, camera=camera)
+        self.assertRegex(" ".join(unknown.notes), "keypoints")
+        with self.assertRaisesRegex(ValueError, "camera"):
+            beginning(keypoints=points)
         self.assertNotIn("residual_after_percent", beginning(fit=False).record.get("fit", {}))
 
     def test_progress_stops_it_and_its_errors_come_out(self):
-        with self.assertRaises(KeyboardInterrupt):
+        with self.assertRaises(mimicx.Stopped):
             beginning(progress=lambda doing: True)
+        self.assertTrue(beginning(progress=len).followed)  # what a stream's write returns stops nothing
 
         def broken(doing):
             raise ZeroDivisionError
@@ -86,6 +105,18 @@ class Cleaning(unittest.TestCase):
             mimicx.clean(FILE["poses"][:N], FILE["trans"][:N - 1])
         with self.assertRaisesRegex(KeyError, "wings"):
             mimicx.load(MOTION)["wings"]
+        with self.assertRaisesRegex(ValueError, "poses"):
+            mimicx.clean(FILE["poses"][:0], FILE["trans"][:0])
+
+    def test_results_are_copied_and_sent_and_handles_are_not(self):
+        result = beginning()
+        for copied in (copy.deepcopy(result), pickle.loads(pickle.dumps(result))):
+            np.testing.assert_array_equal(copied["poses"], result["poses"])
+            self.assertEqual((copied.metrics, copied.motion), (result.metrics, None))
+        for handle in (result.motion, mimicx.Simulator()):
+            for copier in (copy.copy, copy.deepcopy, pickle.dumps):
+                with self.assertRaises(TypeError):
+                    copier(handle)
 
     def test_poses_are_audited(self):
         found = mimicx.audit(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], body_model="mimicx")
@@ -105,6 +136,13 @@ class Simulating(unittest.TestCase):
         self.assertGreater(body.root_position[0], x + 0.005)
         body.stand()
         self.assertEqual(body.root_position[2], height)
+        pushed = mimicx.Simulator()
+        pushed.push = [0, 0, 0, 200, 0, 0]
+        pushed.step(24)
+        self.assertGreater(pushed.root_position[0], x + 0.005)
+        for steps in (8.0, 2**32 + 1):
+            with self.assertRaises((TypeError, ValueError)):
+                pushed.step(steps)
 
     def test_arrays_outlive_the_simulator(self):
         place = mimicx.Simulator().root_position
