@@ -8,6 +8,7 @@
 
 import {connect} from './connection.mjs';
 
+const SUFFIXES = ['.npz', '.npy', '.bvh', '.glb', '.mot', '.sto', '.csv'];
 const in_node = typeof process === 'object' && Boolean(process.versions?.node);
 
 async function read_program() {
@@ -33,6 +34,8 @@ async function bytes_of(file) {
 
 // Asks a new worker, which is ended whatever comes of it.
 async function ask(what, file, {signal, write = [], ...options}, on_progress) {
+  const unknown = Array.isArray(write) ? write.find((suffix) => !SUFFIXES.includes(suffix)) : write;
+  if (unknown !== undefined) throw new TypeError(`mimicx: write: expected a list of ${SUFFIXES.join(', ')}, found ${unknown}`);
   signal?.throwIfAborted();
   const [bytes, wasm] = await Promise.all([bytes_of(file), read_program()]);
   const program = connect(await new_worker(), wasm, (doing) => on_progress?.(doing)), stop = () => program.end(signal.reason);
