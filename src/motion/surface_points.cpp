@@ -1,5 +1,7 @@
 #include "motion/surface_points.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -63,11 +65,23 @@ double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& p
   return lowest_height(surface_positions(points, poses), scene);
 }
 
+double resting_height(int body, const Vector3d& p, const Scene& scene) {
+  constexpr std::array kResting = {kPelvis,     kLeftHip,  kRightHip, kLeftAnkle,
+                                   kRightAnkle, kLeftFoot, kRightFoot};
+  return std::find(kResting.begin(), kResting.end(), body) == kResting.end() ? p.z() : scene.clearance(p);
+}
+
 PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
                                 const Scene& scene) {
-  PerFrame<double> lowest;
-  for (const BodyPoses& pose : poses) lowest.push_back(lowest_height(points, pose, scene));
-  return lowest;
+  PerFrame<double> heights;
+  for (const BodyPoses& pose : poses) {
+    const std::vector<Vector3d> places = surface_positions(points, pose);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < points.size(); ++k)
+      lowest = std::min(lowest, resting_height(points[k].body, places[k], scene));
+    heights.push_back(lowest);
+  }
+  return heights;
 }
 
 }  // namespace mimicx::motion

@@ -29,7 +29,11 @@ double lowest_height(const std::vector<Vector3d>& points, const Scene& scene = {
 /// The same for the surface points of a posed character.
 double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses,
                      const Scene& scene = {});
-/// The same of every frame.
+/// Height of a point of the body over the ground that it may rest on, m. On plates rest feet, pelvis and
+/// thighs; hands, arms and trunk that are below the top of one are beside a seat or before a chair's back,
+/// and have the floor under them.
+double resting_height(int body, const Vector3d& p, const Scene& scene);
+/// Lowest `resting_height` of the points of every frame.
 PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
                                 const Scene& scene = {});
 

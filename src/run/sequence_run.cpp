@@ -113,6 +113,24 @@ std::string look_for_a_scene(const motion::Clip& clip) {
   return "looks like steps or a seat (" + found.words.front() + "): try mimicx plan --scene auto";
 }
 
+/// A note where no point of the body comes near any plate of the motion's scene; else empty.
+std::string doubt_scene(const motion::Reference& reference) {
+  constexpr double kNear = 0.3;  // m
+  const List<ContactPoint>& points = reference.character.contact_points;
+  for (Plate plate : reference.scene.plates) {
+    plate.half_extents += Eigen::Vector2d::Constant(kNear);
+    for (const BodyPoses& pose : reference.poses)
+      for (const ContactPoint& point : points) {
+        const Vector3d p = lowest_position(point, pose);
+        if (plate.spans(p) && std::abs(p.z() - plate.height) < kNear) return "";
+      }
+  }
+  return reference.scene.flat()
+             ? ""
+             : "nothing comes near the scene: is it in the world of the motion (metres, z up, yaw in "
+               "radians)?";
+}
+
 /// Reads, fits and prepares the input, and prints the decisions before any training: a user who sees a wrong
 /// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
@@ -126,7 +144,8 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
-  if (const std::string seen = look_for_a_scene(motion.input); !seen.empty()) entry.notes.push_back(seen);
+  for (const std::string& note : {look_for_a_scene(motion.input), doubt_scene(motion.reference)})
+    if (!note.empty()) entry.notes.push_back(note);
   entry.input_metrics = motion.input_scores.values;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;

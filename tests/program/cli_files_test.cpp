@@ -98,9 +98,16 @@ TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
   const Call flat = mimicx("plan " + path("a.npz") + " --limit-seconds 1e-9 --out " + path("flat"));
   EXPECT_TRUE(says(flat, "looks like steps or a seat (a seat of 0.3")) << flat.text;
   EXPECT_TRUE(says(flat, "): try mimicx plan --scene auto")) << flat.text;
+  EXPECT_FALSE(says(flat, "nothing comes near")) << flat.text;
+  write_file_atomically(path("far.json"),
+                        R"({"plates": [{"centre": [40, 20], "half_extents": [0.3, 0.3], "height": 0.37}]})");
+  EXPECT_TRUE(says(mimicx("plan " + path("a.npz") + " --limit-seconds 1e-9 --out " + path("far") +
+                          " --scene " + path("far.json")),
+                   "nothing comes near the scene"));
   const Call on_seat = mimicx("plan " + path("a.npz") + " --scene auto --out " + path("seated"));
   EXPECT_EQ(on_seat.status, 0) << on_seat.text;
   EXPECT_TRUE(says(on_seat, "scene: a seat of 0.3")) << on_seat.text;
+  EXPECT_FALSE(says(on_seat, "nothing comes near")) << on_seat.text;
   EXPECT_EQ(motion::read_clip(path("seated/motions/a.npz")).scene.plates.size(), 1u);
   EXPECT_FALSE(says(mimicx("plan " + path("a.npz") + " --quiet --limit-seconds 1e-9 --out " + path("quiet")),
                     "looks like"));

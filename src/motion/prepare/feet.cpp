@@ -77,8 +77,8 @@ PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const
   if (scene.flat() && swinging_toes) return lowest_heights(points, poses);
   const auto left = standing_frames(poses, kLeftAnkle, fps, scene),
              right = standing_frames(poses, kRightAnkle, fps, scene);
-  const auto height = [&](const Vector3d& p, bool swings) {
-    const double z = scene.clearance(p);
+  const auto height = [&](int body, const Vector3d& p, bool swings) {
+    const double z = resting_height(body, p, scene);
     return swings && scene.height_under(p) > 0.0 ? std::max(z, 0.0) : z;
   };
   PerFrame<double> heights;
@@ -90,7 +90,7 @@ PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const
       const bool toes = body == kLeftFoot || body == kRightFoot;
       const bool swings = ((body == kLeftAnkle || body == kLeftFoot) && !left[t]) ||
                           ((body == kRightAnkle || body == kRightFoot) && !right[t]);
-      if (swinging_toes || !toes || !swings) lowest = std::min(lowest, height(places[k], swings));
+      if (swinging_toes || !toes || !swings) lowest = std::min(lowest, height(body, places[k], swings));
     }
     heights.push_back(lowest);
   }

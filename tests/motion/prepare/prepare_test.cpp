@@ -13,6 +13,7 @@
 #include "motion/metrics.h"
 #include "motion/prepare/damaged_motions.h"
 #include "motion/raised_clip.h"
+#include "motion/standing_clip.h"
 #include "motion/synthetic_clip.h"
 
 namespace mimicx::motion {
@@ -175,6 +176,19 @@ TEST(Prepare, OnAPlateIsAsOnTheFloor) {
                 farthest_from(again, low, 0.0));
     EXPECT_LT(farthest_from(high, low, test::kRaised), plant ? 0.02 : 1e-8);
   }
+}
+
+// It did, by up to 8 cm, and with it everything else.
+TEST(Prepare, AHandThatHangsBesideASeatDoesNotLiftTheBody) {
+  Clip clip = motion::standing_clip(30);
+  PreparationReport on_the_floor, beside;
+  prepare_reference(clip, {}, &on_the_floor);
+  const Vector3d hand = poses_of(clip)[0].p_WB[kLeftWrist];
+  clip.scene.plates.push_back(
+      {.centre = hand.head<2>(), .half_extents = {0.05, 0.05}, .height = hand.z() + 0.04});
+  ASSERT_LT(clip.scene.clearance(hand), 0.0);
+  prepare_reference(clip, {}, &beside);
+  EXPECT_NEAR(beside.max_floor_shift_mm, on_the_floor.max_floor_shift_mm, 0.1);
 }
 
 TEST(Prepare, RejectsTooShortAndNonFiniteClips) {
