@@ -10,15 +10,20 @@ export interface Options {
   fit?: boolean;
   /** Correct nothing before the plan. */
   as_is?: boolean;
-  /** How to read the file, as the program's options: --up, --scale, --fps, --floor, --body, --root, --person. */
+  /** How to read the file, as the program's options: --up, --scale, --fps, --floor, --mass, --height, --body, --root,
+   * --person. */
   up?: 'x' | 'y' | 'z' | '-x' | '-y' | '-z';
   scale?: number;
   fps?: number;
   floor?: number;
+  mass?: number;
+  height?: number;
   body?: 'file' | 'standard';
   root?: string;
   person?: number;
   limit_seconds?: number;
+  /** Ground that is not flat (docs/scenes.md). */
+  scene?: 'auto' | {plates: Record<string, unknown>[]};
   /** Any setting that `mimicx config` lists for plans and the simulation. */
   [setting: string]: unknown;
 }

@@ -106,8 +106,9 @@ def _view(array, owner):
 class Motion(_Owner):
     """A motion in the library: read or put, then cleaned, audited, written. `Motion(path)` reads a file.
 
-    Options, as keywords: threads, fit, as_is, limit_seconds, up, scale, fps, floor, body, root, person, and every setting
-    of plans and of the simulation that `mimicx config` lists.
+    Options, as keywords: threads, fit, as_is, limit_seconds, up, scale, fps, floor, mass (kg), height (m), body, root,
+    person; scene: "auto", or {"plates": […]} of docs/scenes.md; and every setting of plans and of the simulation that
+    `mimicx config` lists.
     """
 
     def __init__(self, path=None, **options):
@@ -115,7 +116,8 @@ class Motion(_Owner):
         if not self._handle:
             raise MemoryError("mimicx")
         for name, value in options.items():
-            text = str(int(value)) if isinstance(value, (bool, np.bool_)) else str(value)
+            text = (str(int(value)) if isinstance(value, (bool, np.bool_)) else
+                    json.dumps(value) if isinstance(value, dict) else str(value))
             self._check(_lib.mimicx_motion_set(self._handle, name.encode(), text.encode()))
         if path is not None:
             data = pathlib.Path(path).read_bytes()

@@ -11,12 +11,14 @@
 #include <system_error>
 
 #include "audit/audit_file.h"
+#include "audit/scene_search.h"
 #include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/setting.h"
 #include "files/clean_copy.h"
 #include "files/exchange/exchange_file.h"
+#include "files/scene_file.h"
 #include "motion/clip_file.h"
 #include "record/json.h"
 #include "record/manifest.h"
@@ -92,6 +94,12 @@ double number_in(const std::string& name, const std::string& value) {
   return *number;
 }
 
+double positive_in(const std::string& name, const std::string& value) {
+  const double number = number_in(name, value);
+  if (number <= 0.0) throw std::invalid_argument(name + ": expected a number above 0, found '" + value + "'");
+  return number;
+}
+
 int whole_in(const std::string& name, const std::string& value, int least, int most) {
   const double number = number_in(name, value);
   if (number != std::floor(number) || number < least || number > most)
@@ -120,15 +128,23 @@ void Motion::set(const std::string& name, const std::string& value) {
   } else if (name == "as_is") {
     config_.run.correction.as_is = whole_in(name, value, 0, 1) == 1;
   } else if (name == "limit_seconds") {
-    config_.run.limit_seconds = number_in(name, value);
+    config_.run.limit_seconds = positive_in(name, value);
   } else if (name == "up") {
     read.up = axis_in(value);
   } else if (name == "scale") {
-    read.scale = number_in(name, value);
+    read.scale = positive_in(name, value);
   } else if (name == "fps") {
-    read.fps = number_in(name, value);
+    read.fps = positive_in(name, value);
   } else if (name == "floor") {
     read.floor = number_in(name, value);
+  } else if (name == "mass") {
+    read.mass = positive_in(name, value);
+  } else if (name == "height") {
+    read.height = positive_in(name, value);
+  } else if (name == "scene") {
+    finds_scene_ = value == "auto";
+    read.scene.reset();
+    if (!finds_scene_) read.scene = files::scene_from(value, name);
   } else if (name == "root") {
     read.root = value;
   } else if (name == "person") {
@@ -173,6 +189,10 @@ bool Motion::clean(const Watcher& watch) {
   const std::filesystem::path input = folder / name_;
   write_file_atomically(input, bytes_);
   plan::PlanMotionsConfig config = config_;
+  if (finds_scene_) {
+    const motion::Clip clip = import::motion_from(bytes_, name_, config.run.read);
+    if (clip.scene.flat()) config.run.read.scene = audit::find_scene(clip).scene;
+  }
   config.run.inputs = {input.string()};
   config.run.out = folder / "run";
   Watched watched(watch);
@@ -218,6 +238,9 @@ std::string Motion::written(const std::string& suffix) {
   load();
   if (entry_ && suffix == ".npz") return bytes_;
   if (entry_ && suffix == clean_suffix_) return clean_bytes_;
+  if (!files::is_exchanged("motion" + suffix) && !import::is_written(suffix))
+    throw std::invalid_argument("motions are written as " + import::written_suffixes() +
+                                ", .glb, .mot, .sto or .csv, not '" + suffix + "'");
   const WorkingFolder folder;
   const std::filesystem::path file = folder / (std::filesystem::path(name_).stem().string() + suffix);
   const motion::Clip clip =

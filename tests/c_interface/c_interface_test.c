@@ -96,6 +96,10 @@ static void check_reading(const Bytes* file) {
   CHECK(mimicx_motion_set(motion, "colour", "1") == MIMICX_FAILED, "no such setting");
   CHECK(mimicx_motion_set(motion, "up", "w") == MIMICX_FAILED, "no such axis");
   CHECK(mimicx_motion_set(motion, "threads", "two") == MIMICX_FAILED, "no number");
+  CHECK(mimicx_motion_set(motion, "limit_seconds", "-1") == MIMICX_FAILED, "a time below 0");
+  CHECK(mimicx_motion_set(motion, "fps", "0") == MIMICX_FAILED, "no frame rate");
+  CHECK(mimicx_motion_set(motion, "scene", "{\"plates\": [{}]}") == MIMICX_FAILED, "a plate without a place");
+  CHECK(strstr(mimicx_motion_error(motion), "plate 1") != NULL, "%s", mimicx_motion_error(motion));
   mimicx_array no_array = {NULL, "<c8", 1, {1, 0, 0, 0}};
   CHECK(mimicx_motion_put(motion, "poses", &no_array) == MIMICX_FAILED, "no such type");
   mimicx_array huge = {&no_array, "<f8", 2, {INT64_C(1) << 40, INT64_C(1) << 40, 0, 0}};

@@ -118,6 +118,19 @@ class Cleaning(unittest.TestCase):
                 with self.assertRaises(TypeError):
                     copier(handle)
 
+    def test_scene_and_mass_are_as_the_program_has_them(self):
+        plate = {"centre": [0, 0], "half_extents": [9, 9], "height": 0.3}
+        raised = FILE["trans"][:N] + [0, 0, 0.3]
+        high = mimicx.clean(FILE["poses"][:N], raised, FILE["betas"], body_model="mimicx", scene={"plates": [plate]}, fit=False)
+        self.assertEqual(high["scene_plates"].shape, (1, 8))
+        self.assertGreater(high["trans"][:, 2].min(), 0.9)
+        self.assertNotIn("scene_plates", mimicx.clean(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], body_model="mimicx",
+                                                      scene="auto", fit=False))
+        with self.assertRaisesRegex(mimicx.Error, "mass"):
+            mimicx.Motion(mass=-3)
+        with self.assertRaisesRegex(mimicx.Error, "[.]glb"):
+            mimicx.load(MOTION).bytes(".fbx")
+
     def test_poses_are_audited(self):
         found = mimicx.audit(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], body_model="mimicx")
         self.assertEqual(found[0]["evidence"], "poses alone")

@@ -71,7 +71,7 @@ function with_motion({name, bytes, options}, f) {
   const check = (good) => { if (!good) throw new Error(text_at(program._mimicx_motion_error(motion))); };
   try {
     for (const [key, value] of Object.entries(options).filter(([, value]) => value !== undefined)) {
-      const text = typeof value === 'boolean' ? String(Number(value)) : String(value);
+      const text = typeof value === 'boolean' ? String(Number(value)) : typeof value === 'object' ? JSON.stringify(value) : String(value);
       check(with_text(key, (k) => with_text(text, (v) => program._mimicx_motion_set(motion, k, v))) === OK);
     }
     check(with_text(name, (n) => with_memory(bytes, (at) => program._mimicx_motion_read(motion, at, bytes.length, n))) === OK);
