@@ -71,7 +71,8 @@ MIMICX_API const char* mimicx_motion_error(const mimicx_motion* motion);
  * @param name   threads, fit (0 or 1), as_is (0 or 1), limit_seconds; up (x, y, z, -x, -y, -z), scale, fps,
  * floor, mass, height, body (file or standard), root, person, as the program's options; scene; or a setting
  * that `mimicx config` lists for plans and the simulation
- * @param value  as on the command line; of a scene its JSON (docs/scenes.md), or auto: found before cleaning */
+ * @param value  as on the command line; of a scene its JSON (docs/scenes.md), or auto: found before cleaning
+ */
 MIMICX_API mimicx_status mimicx_motion_set(mimicx_motion* motion, const char* name, const char* value);
 
 /* Reads the bytes of a file of any format that the program reads. @param name  of the file; its suffix counts
