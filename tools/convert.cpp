@@ -22,8 +22,6 @@ struct ConvertArguments {
   bool force = false;
 };
 
-std::string known_suffixes() { return ".npz, .npy, .bvh, " + files::exchanged_suffixes(); }
-
 /// @throws UsageError, or OutputRefused if the file must not be overwritten
 void claim_output(const ConvertArguments& a) {
   record::Outputs outputs({a.in.string()}, a.force);
@@ -32,7 +30,7 @@ void claim_output(const ConvertArguments& a) {
     return outputs.claim(a.out, opening.text, opening.at);
   }
   if (!import::is_written(a.out.extension().string()))
-    throw UsageError(a.out.string() + ": motions are written as " + known_suffixes() + ", not '" +
+    throw UsageError(a.out.string() + ": motions are written as " + files::motion_suffixes() + ", not '" +
                      a.out.extension().string() + "'");
   outputs.claim(a.out, import::written_opening(a.out));
 }

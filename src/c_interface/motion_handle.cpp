@@ -239,8 +239,8 @@ std::string Motion::written(const std::string& suffix) {
   if (entry_ && suffix == ".npz") return bytes_;
   if (entry_ && suffix == clean_suffix_) return clean_bytes_;
   if (!files::is_exchanged("motion" + suffix) && !import::is_written(suffix))
-    throw std::invalid_argument("motions are written as " + import::written_suffixes() +
-                                ", .glb, .mot, .sto or .csv, not '" + suffix + "'");
+    throw std::invalid_argument("motions are written as " + files::motion_suffixes() + ", not '" + suffix +
+                                "'");
   const WorkingFolder folder;
   const std::filesystem::path file = folder / (std::filesystem::path(name_).stem().string() + suffix);
   const motion::Clip clip =

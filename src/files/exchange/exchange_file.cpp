@@ -13,7 +13,7 @@ namespace mimicx::files {
 
 bool is_exchanged(const std::filesystem::path& path) { return !exchange_opening(path).text.empty(); }
 
-std::string exchanged_suffixes() { return ".glb, .mot, .sto or .csv"; }
+std::string motion_suffixes() { return ".npz, .npy, .bvh, .glb, .mot, .sto or .csv"; }
 
 Opening exchange_opening(const std::filesystem::path& path) {
   const std::string suffix = import::lower_suffix(path);

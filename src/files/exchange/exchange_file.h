@@ -23,8 +23,8 @@ struct ExchangeConfig {
 };
 
 bool is_exchanged(const std::filesystem::path& path);
-/// ".glb, .mot, .sto or .csv"
-std::string exchanged_suffixes();
+/// Of all files that a motion is written to, for messages: ".npz, .npy, …, .sto or .csv".
+std::string motion_suffixes();
 
 /// The first bytes of the files of a suffix, and their offset.
 struct Opening {
