@@ -113,6 +113,17 @@ TEST(FindScene, FindsNineOfTenNoisyStepsToTwoCentimetres) {
   EXPECT_LE(found_plates, plates);
 }
 
+TEST(FindScene, FindsStepsOfANoisyEstimate) {
+  const FoundScene found = find_scene(noisy("stairs_up"));
+  synth::SynthConfig config;
+  config.kind = "stairs_up";
+  config.seed = 1;
+  const Scene truth = synth::synthesize(config).scene;
+  ASSERT_EQ(found.scene.plates.count(), truth.plates.count());
+  for (int i = 0; i < truth.plates.count(); ++i)
+    EXPECT_NEAR(found.scene.plates[i].height, truth.plates[i].height, 0.05);
+}
+
 TEST(FindScene, StepsOfAFlightRiseEqually) {
   const Scene found = find_scene(noisy("stairs_up")).scene;
   ASSERT_GE(found.plates.count(), 3);
