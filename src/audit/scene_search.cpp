@@ -19,7 +19,6 @@ constexpr double kStands = 0.13;       // s
 constexpr double kSits = 0.3;          // s
 constexpr double kLowestPlate = 0.09;  // m; heights of estimated motions wander by less
 constexpr double kSameHeight = 0.07;   // of the feet on one plate, m
-constexpr double kSideBySide = 0.07;   // feet whose heights differ by less may stand on one plate, m
 constexpr int kFlight = 3;             // steps of equal rises, or more
 constexpr double kUnequalRise = 0.05;  // of an estimated step from its place in such a flight, m
 constexpr double kSameSeat = 0.4;      // from its middle to that of another one, m
@@ -169,7 +168,7 @@ double left_over_right(const SupportedMotion& e, const std::vector<Stance>& all)
       if (left.points.front() == 0 && right.points.front() != 0)
         for (int t = std::max(left.first, right.first); t <= std::min(left.last, right.last); ++t) {
           const double difference = e.sole_height(t, left.points) - e.sole_height(t, right.points);
-          if (std::abs(difference) < kSideBySide) differences.push_back(difference);
+          if (std::abs(difference) < kSameHeight) differences.push_back(difference);
         }
   return differences.empty() ? 0.0 : median(differences);
 }
@@ -290,23 +289,24 @@ std::string plate_in_words(const char* what, double height, const char* under, i
 void make_rises_equal(std::vector<double>& heights) {
   std::vector<double> sorted = heights;
   std::sort(sorted.begin(), sorted.end());
-  const auto level = [&](double height) {  // 1 for the lowest
-    int k = 1;
-    for (std::size_t i = 0; i + 1 < sorted.size() && sorted[i] < height; ++i)
-      if (sorted[i + 1] - sorted[i] > kSameHeight) ++k;
-    return k;
-  };
-  double sum = 0.0, squares = 0.0;
+  std::vector<int> levels;  // of the heights, 1 for the lowest
   for (const double height : heights) {
-    sum += level(height) * height;
-    squares += level(height) * level(height);
+    levels.push_back(1);
+    for (std::size_t i = 1; i < sorted.size() && sorted[i] <= height; ++i)
+      levels.back() += sorted[i] - sorted[i - 1] > kSameHeight;
   }
-  const double rise = sum / squares;
-  if (heights.empty() || level(sorted.back()) < kFlight ||
-      std::any_of(heights.begin(), heights.end(),
-                  [&](double height) { return std::abs(height - level(height) * rise) > kUnequalRise; }))
-    return;
-  for (double& height : heights) height = level(height) * rise;
+  if (levels.empty() || *std::max_element(levels.begin(), levels.end()) < kFlight) return;
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    sum += levels[k] * heights[k];
+    squares += levels[k] * levels[k];
+  }
+  std::vector<double> equal;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    equal.push_back(levels[k] * (sum / squares));
+    if (std::abs(heights[k] - equal.back()) > kUnequalRise) return;
+  }
+  heights = equal;
 }
 
 /// @param all  stances
