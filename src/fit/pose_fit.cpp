@@ -24,9 +24,9 @@ void put_on_floor(bool known, FitProblem& problem) {
   PerFrame<BodyPoses> poses;
   for (int t = 0; t < problem.frames(); ++t)
     poses.push_back(forward_kinematics(character, problem.p_root[t], problem.q[t]));
-  const motion::FloorCorrection floor =
-      motion::floor_correction(motion::standing_heights(points, poses, problem.fps, problem.scene),
-                               motion::lowest_heights(others, poses, problem.scene), problem.fps, known);
+  const motion::FloorCorrection floor = motion::floor_correction(
+      motion::standing_heights(points, poses, problem.fps, problem.scene),
+      motion::lowest_resting_heights(others, poses, problem.scene), problem.fps, known);
   for (int t = 0; t < problem.frames(); ++t) problem.p_root[t].z() += floor.height[t];
 }
 

@@ -44,9 +44,9 @@ double support_speed(const PerFrame<BodyPoses>& poses, double fps) {
 double support_speed(const motion::Clip& clip) { return support_speed(motion::poses_of(clip), clip.fps); }
 
 double detect_floor(const motion::Clip& clip) {
-  return finite_quantile(
-      motion::lowest_heights(motion::surface_points(motion::character_of(clip)), motion::poses_of(clip)),
-      kFloorShare);
+  return finite_quantile(motion::lowest_resting_heights(motion::surface_points(motion::character_of(clip)),
+                                                        motion::poses_of(clip)),
+                         kFloorShare);
 }
 
 std::vector<std::string> implausible_speeds(const motion::Clip& clip) {

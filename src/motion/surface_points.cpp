@@ -71,8 +71,8 @@ double resting_height(int body, const Vector3d& p, const Scene& scene) {
   return std::find(kResting.begin(), kResting.end(), body) == kResting.end() ? p.z() : scene.clearance(p);
 }
 
-PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
-                                const Scene& scene) {
+PerFrame<double> lowest_resting_heights(const std::vector<SurfacePoint>& points,
+                                        const PerFrame<BodyPoses>& poses, const Scene& scene) {
   PerFrame<double> heights;
   for (const BodyPoses& pose : poses) {
     const std::vector<Vector3d> places = surface_positions(points, pose);

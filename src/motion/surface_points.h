@@ -34,7 +34,7 @@ double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& p
 /// and have the floor under them.
 double resting_height(int body, const Vector3d& p, const Scene& scene);
 /// Lowest `resting_height` of the points of every frame.
-PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
-                                const Scene& scene = {});
+PerFrame<double> lowest_resting_heights(const std::vector<SurfacePoint>& points,
+                                        const PerFrame<BodyPoses>& poses, const Scene& scene = {});
 
 }  // namespace mimicx::motion

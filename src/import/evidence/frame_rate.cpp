@@ -78,7 +78,7 @@ struct Flight {
 List<Flight> flights_of(const motion::Clip& clip) {
   const Character character = motion::character_of(clip);
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  const PerFrame<double> lowest = motion::lowest_heights(motion::surface_points(character), poses);
+  const PerFrame<double> lowest = motion::lowest_resting_heights(motion::surface_points(character), poses);
   const double floor = detect_floor(clip);
   PerFrame<double> height;
   for (const BodyPoses& pose : poses) height.push_back(center_of_mass(character, pose).z());

@@ -74,7 +74,7 @@ double level_feet(Reference& reference) {
 
 PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
                                   double fps, const Scene& scene, bool swinging_toes) {
-  if (scene.flat() && swinging_toes) return lowest_heights(points, poses);
+  if (scene.flat() && swinging_toes) return lowest_resting_heights(points, poses);
   const auto left = standing_frames(poses, kLeftAnkle, fps, scene),
              right = standing_frames(poses, kRightAnkle, fps, scene);
   const auto height = [&](int body, const Vector3d& p, bool swings) {

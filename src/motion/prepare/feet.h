@@ -25,8 +25,8 @@ PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, doub
 /// @return largest rotation applied, degrees
 double level_feet(Reference& reference);
 
-/// As `lowest_heights`, but points of a foot that swings through the side of a box count as on it: what is
-/// wrong there is the place of the foot, not the height of the body.
+/// As `lowest_resting_heights`, but points of a foot that swings through the side of a box count as on it:
+/// what is wrong there is the place of the foot, not the height of the body.
 /// @param swinging_toes  false: toes of feet that do not stand are left out
 PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
                                   double fps, const Scene& scene, bool swinging_toes = true);

@@ -155,9 +155,9 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
   const std::vector<SurfacePoint> others(points.begin() + kFootPoints, points.end());
   PerFrame<double> moved(reference.frames.size(), 0.0);
   const auto align = [&](const PerFrame<double>& lowest) {
-    const FloorCorrection floor =
-        floor_correction(lowest, plant ? lowest_heights(others, reference.poses, reference.scene) : lowest,
-                         reference.fps, known);
+    const FloorCorrection floor = floor_correction(
+        lowest, plant ? lowest_resting_heights(others, reference.poses, reference.scene) : lowest,
+        reference.fps, known);
     report.floor_shift_mm += kMm * floor.shift;
     for (int t = 0; t < reference.size(); ++t) {
       reference.frames[t].p_root.z() += floor.height[t];
@@ -183,7 +183,7 @@ void begin_in_flight(Reference& reference) {
   constexpr int kFewest = 4;                 // frames in the air
   constexpr double kSlack = 0.3 * kGravity;  // a fall has the acceleration of gravity but for this, m/s²
   const PerFrame<double> lowest =
-      lowest_heights(surface_points(reference.character), reference.poses, reference.scene);
+      lowest_resting_heights(surface_points(reference.character), reference.poses, reference.scene);
   int flight = 0;
   while (flight < reference.size() && lowest[flight] > kClearance) ++flight;
   if (flight < kFewest) return;
