@@ -385,13 +385,13 @@ class RunMotions:
         stride = frames if stride is None else stride
         if min(frames, stride) < 1:
             raise ValueError(f"frames, stride: expected at least 1, found {frames}, {stride}")
-        self.frames, self._motions, self._places = frames, [], []
+        self.frames, self.members, self._motions, self._places = frames, tuple(members), [], []
         for entry, arrays in Run(folder).motions():
-            if missing := [name for name in members if name not in arrays]:
+            if missing := [name for name in self.members if name not in arrays]:
                 raise KeyError(f"{entry['name']}: expected the member {missing[0]}, found {', '.join(arrays)}")
             count = len(arrays["poses"])
             motion = {name: (np.asarray(arrays[name], dtype=np.float32), arrays[name].shape[:1] == (count,))
-                      for name in members}
+                      for name in self.members}
             self._places += [(len(self._motions), start) for start in range(0, count - frames + 1, stride)]
             self._motions.append(motion)
         if not self._places:
