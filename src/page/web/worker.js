@@ -65,14 +65,18 @@ const ARRAYS = {'<f8': Float64Array, '<f4': Float32Array, '<i8': BigInt64Array, 
                 '|b1': Uint8Array};
 const text_at = (pointer) => pointer ? program.UTF8ToString(pointer) : '';
 
+function setting_text(value) {
+  if (typeof value === 'boolean') return String(Number(value));
+  return typeof value === 'object' ? JSON.stringify(value) : String(value);
+}
+
 // Reads a motion from its file and calls f(motion, check), where check throws the motion's error.
 function with_motion({name, bytes, options}, f) {
   const motion = program._mimicx_motion_new();
   const check = (good) => { if (!good) throw new Error(text_at(program._mimicx_motion_error(motion))); };
   try {
     for (const [key, value] of Object.entries(options).filter(([, value]) => value !== undefined)) {
-      const text = typeof value === 'boolean' ? String(Number(value)) : typeof value === 'object' ? JSON.stringify(value) : String(value);
-      check(with_text(key, (k) => with_text(text, (v) => program._mimicx_motion_set(motion, k, v))) === OK);
+      check(with_text(key, (k) => with_text(setting_text(value), (v) => program._mimicx_motion_set(motion, k, v))) === OK);
     }
     check(with_text(name, (n) => with_memory(bytes, (at) => program._mimicx_motion_read(motion, at, bytes.length, n))) === OK);
     return f(motion, check);
