@@ -79,9 +79,10 @@ Support front(int side) {
   return points;
 }
 
+Support hips() { return points_on(kPelvis); }
 Support thighs() { return {points_on(kLeftHip).front(), points_on(kRightHip).front()}; }
 Support seat() {
-  Support points = points_on(kPelvis);
+  Support points = hips();
   for (const int point : thighs()) points.push_back(point);
   return points;
 }

@@ -34,6 +34,7 @@ Support knee(int side);
 Support hand(int side);
 Support elbow(int side);
 Support front(int side);  ///< hip and belly, for lying on the front
+Support hips();           ///< the pelvis
 Support thighs();
 Support seat();  ///< pelvis and thighs
 Support back();  ///< the thorax, for lying on the back

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "character/joint_range.h"
 #include "core/units.h"
 #include "synth/data_set.h"
 #include "synth/synth_motions.h"
@@ -86,8 +87,8 @@ TEST(SceneKinds, StairsGoUpAndDownByTheirSteps) {
                 -m.clip.scene.plates.front().height, 0.02);
 }
 
-/// Hips and thighs rest on the seat, feet on the floor; nothing is deep in it, but hands that pass its side.
-/// To a centimetre or two; the plan does the rest.
+/// Hips rest on the seat, to a centimetre, and thighs on it or up to two over it (seats lower than level
+/// thighs); feet are on the floor, and nothing is deep in the seat, but hands that pass its side.
 TEST(SceneKinds, SeatsCarryHipsAndThighs) {
   for_all_of(kSeats, [](const test::Motion& m) {
     const Plate& seat = m.clip.scene.plates.front();
@@ -100,7 +101,8 @@ TEST(SceneKinds, SeatsCarryHipsAndThighs) {
         ASSERT_GT(m.clip.scene.clearance(p), body == kLeftWrist || body == kRightWrist ? -0.06 : -0.02)
             << "frame " << t << ", " << kBodyNames[body];
         if (body == kPelvis || body == kLeftHip || body == kRightHip)
-          on_it = on_it && seat.spans(p) && std::abs(p.z() - seat.height) < 0.01;
+          on_it = on_it && seat.spans(p) && p.z() - seat.height > -0.01 &&
+                  p.z() - seat.height < (body == kPelvis ? 0.01 : 0.02);
       }
       seated += on_it;
       for (int i = 0; i < kFootPoints; ++i) ASSERT_LT(std::abs(lowest(m, t, i).z()), 0.015) << "frame " << t;
@@ -108,6 +110,27 @@ TEST(SceneKinds, SeatsCarryHipsAndThighs) {
     EXPECT_GT(seated, 20);
     EXPECT_GT(m.joint(0, kPelvis).z() - seat.height, 0.3);
   });
+}
+
+/// On seats of any height that occurs, for bodies of any shape: an upright pelvis and joints inside their
+/// ranges.
+TEST(SceneKinds, SeatedPeopleAreUprightAndInsideTheirRanges) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    SynthConfig config;
+    config.kind = "sit_down";
+    config.seed = seed;
+    config.betas_from_seed = true;
+    const test::Motion m = test::make_motion(config);
+    SCOPED_TRACE(m.clip.name);
+    const std::size_t middle = m.frames() / 2;
+    ASSERT_LT(m.joint(middle, kPelvis).z() - m.clip.scene.plates.front().height, 0.2) << "does not sit";
+    EXPECT_GT((m.poses[middle].q_WB[kPelvis] * Vector3d::UnitY()).z(), std::cos(10.0 * kDegree));
+    const PerFrame<PerBody<Quaterniond>> rotations = motion::joint_rotations(m.clip);
+    for (int t = 0; t < rotations.count(); ++t)
+      for (int body = 1; body < kBodies; ++body)
+        ASSERT_LT(range_distance(m.character.joint[body], body, rotations[t][body]).excess, kDegree)
+            << "frame " << t << ", " << kBodyNames[body];
+  }
 }
 
 TEST(SceneKinds, LieOnBedRestsTheThoraxOnIt) {

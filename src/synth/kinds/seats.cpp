@@ -14,25 +14,42 @@ LegPosture bent(double flexion, double knee, double pointing = 0.0) {
   return {flexion * kDegree, 4.0 * kDegree, knee * kDegree, pointing * kDegree, 0.0};
 }
 
-/// A plate behind the feet, as high as the thighs of a person who sits with level thighs.
-/// @param deep  m from front to back  @param wide  m from side to side  @param share  of that height
+/// Height of the knees over vertical shanks, m.
+double knee_height(const Character& c) {
+  return c.joint_offset[kLeftAnkle].norm() - sole_point(c.contact_points[0]).y();
+}
+
+/// A plate behind the feet.
+/// @param deep   m from front to back  @param wide  m from side to side
+/// @param share  of the height of thighs that are level. Up to 0.95 the pelvis, which is thinner than the
+///               thighs, rests on the plate as well
 Scene seat_behind(const PlanRequest& request, double deep, double wide, double share) {
   const Character& c = request.character;
-  const double sole = -sole_point(c.contact_points[0]).y();  // below the ankle
-  const double thigh = c.joint_offset[kLeftKnee].norm(), front = -0.18 * thigh;
+  const double front = -0.18 * c.joint_offset[kLeftKnee].norm();
   Plate plate;
   plate.half_extents = {0.5 * deep, 0.5 * wide};
   plate.centre = {front - 0.5 * deep, 0.0};
-  plate.height = share * (c.joint_offset[kLeftAnkle].norm() + sole - c.capsule[kLeftHip].radius);
+  plate.height = share * (knee_height(c) - c.capsule[kLeftHip].radius);
   Scene scene;
   scene.plates.push_back(plate);
   return scene;
 }
 
+/// Flexion of hips and knees of a person who sits upright on a plate over vertical shanks, degrees.
+/// @param height  of the plate, m
+double seated_flexion(const Character& c, double height) {
+  double bottom = 0.0;  // of the pelvis, m over its joint
+  for (const ContactPoint& point : c.contact_points)
+    if (point.body == kPelvis) bottom = std::min(bottom, sole_point(point).y());
+  const double hip = height - bottom + c.joint_offset[kLeftHip].y();
+  return 90.0 + asin((knee_height(c) - hip) / c.joint_offset[kLeftKnee].norm()) / kDegree;
+}
+
 /// A person between standing and sitting.
 class Sitter {
  public:
-  Sitter(Sketch& sketch, double height) : s_(sketch), height_(height), stand_(sketch.stand()) {
+  Sitter(const Character& character, Sketch& sketch, double height)
+      : s_(sketch), height_(height), flexion_(seated_flexion(character, height)), stand_(sketch.stand()) {
     tempo_ = sketch.random().uniform(0.9, 1.15);
     lean_ = sketch.random().uniform(36.0, 44.0);
     upright_ = stand_;  // the hands over the thighs
@@ -81,7 +98,8 @@ class Sitter {
     const bool on_back = tilt < -80.0, on_elbows = !on_back && tilt < -50.0;
     KeyPose key = reclined(tilt);
     std::vector<Bearing> bearings =
-        on_back ? std::vector{rolling_on(thighs(), height_), rolling_on(back(), height_)} : seated();
+        on_back ? std::vector{rolling_on(thighs(), height_), rolling_on(back(), height_)}
+                : std::vector{rolling_on(seat(), height_)};
     std::vector<Load> loads = {{seat(), 0.95 - share}, {sole(0), 0.025}, {sole(1), 0.025}};
     if (on_back) loads.push_back({back(), share});
     for (const int side : {0, 1}) {
@@ -93,10 +111,12 @@ class Sitter {
     }
     go(key, bearings, loads, seconds);
   }
-  std::vector<Bearing> seated() const { return {rolling_on(seat(), height_)}; }
+  std::vector<Bearing> seated() const { return {rolling_on(hips(), height_)}; }
   static std::vector<Load> soles() { return {{sole(0)}, {sole(1)}}; }
   static std::vector<Load> to_feet() { return {{seat(), 0.66}, {sole(0), 0.17}, {sole(1), 0.17}}; }
-  static std::vector<Load> on_seat() { return {{seat(), 0.85}, {sole(0), 0.075}, {sole(1), 0.075}}; }
+  static std::vector<Load> on_seat() {
+    return {{hips(), 0.65}, {thighs(), 0.2}, {sole(0), 0.075}, {sole(1), 0.075}};
+  }
   /// Hips back, trunk and arms ahead.
   KeyPose bowed(double flexion, double knee) const {
     KeyPose key{stand_, {}, {}, {}};
@@ -109,12 +129,12 @@ class Sitter {
   }
   KeyPose sitting(const PlanFrame& upper) const {
     KeyPose key{upper, {}, {}, {}};
-    for (LegPosture& l : key.leg) l = bent(86.0, 86.0);
+    for (LegPosture& l : key.leg) l = bent(flexion_, flexion_);
     return key;
   }
   /// Before the hips leave the seat, and when they have reached it.
   KeyPose leaning() const {
-    KeyPose key = bowed(86.0 + 0.5 * lean_, 92.0);
+    KeyPose key = bowed(flexion_ + 0.5 * lean_, flexion_);
     key.upper.pelvis.x() = 0.5 * lean_ * kDegree;
     key.upper.trunk.x() = 0.4 * lean_ * kDegree;
     for (ArmPosture& arm : key.upper.arm) arm.forward = 75.0 * kDegree;  // not down beside the plate
@@ -125,22 +145,22 @@ class Sitter {
     KeyPose key = sitting(upright_);
     key.upper.pelvis.x() = tilt * kDegree;
     key.upper.head.x() = 12.0 * kDegree;
-    for (LegPosture& l : key.leg) l = bent(86.0 + tilt, 86.0);
+    for (LegPosture& l : key.leg) l = bent(flexion_ + tilt, flexion_);
     return key;
   }
 
   Sketch& s_;
-  double height_, tempo_ = 1.0, lean_ = 40.0;
+  double height_, flexion_, tempo_ = 1.0, lean_ = 40.0;
   PlanFrame stand_, upright_;
 };
 
 /// Sits down, calls `busy(sitter)`, and stands up.
 template <class Busy>
 SceneMotion on_seat(const PlanRequest& request, double deep, double wide, const Busy& busy) {
-  const double share = request.random.uniform(0.92, 1.04);
+  const double share = request.random.uniform(0.86, 0.95);
   SceneMotion motion{{}, seat_behind(request, deep, wide, share)};
   Sketch s(request, random_stance(request, 1.0, 1.3, 3.0, 9.0), motion.scene);
-  Sitter sitter(s, motion.scene.plates.front().height);
+  Sitter sitter(request.character, s, motion.scene.plates.front().height);
   sitter.down();
   busy(sitter);
   sitter.up();
@@ -166,7 +186,7 @@ SceneMotion sit_and_reach(const PlanRequest& request) {
 }
 
 SceneMotion lie_on_bed(const PlanRequest& request) {
-  return on_seat(request, 2.0, 1.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(0.8, 1.6)); });
+  return on_seat(request, 2.0, 1.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(1.0, 1.8)); });
 }
 
 }  // namespace mimicx::synth
