@@ -41,7 +41,7 @@ void declare_pretrain(CommandLine& line) {
   command.number("--samples", a->config.training.samples, kFromZero,
                  "training budget of all options together, in character steps");
   add_cluster_arguments(command, a->config.clusters);
-  add_read_arguments(command, a->config.read);
+  add_read_arguments(command, a->config.read, true);
   command.choice_of<std::string>(
       "--preset", "small", {{"small", "small"}, {"large", "large"}},
       [a](const std::string& preset) {

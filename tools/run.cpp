@@ -48,7 +48,7 @@ void declare_run(CommandLine& line) {
   command.number("--pretrain-samples", a->pretrain.training.samples, kFromZero,
                  "training budget of all options together, in character steps");
   add_cluster_arguments(command, a->pretrain.clusters);
-  add_read_arguments(command, a->pretrain.read);
+  add_read_arguments(command, a->pretrain.read, true);
   command.number("--budget-samples", a->adapt.training.samples, kFromZero,
                  "fine-tuning budget per motion, in character steps");
   add_arrangement_arguments(command, a->adapt.arrangement);

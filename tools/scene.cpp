@@ -6,6 +6,7 @@
 #include "files/scene_file.h"
 #include "record/json.h"
 #include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 #include "standard_streams.h"
 
@@ -23,7 +24,9 @@ int scene(const SceneArguments& a) {
   if (a.read.scene) throw UsageError("scene: it finds the scene; leave out --scene");
   record::Outputs outputs({a.input.string()}, a.force);
   if (!is_standard_output(a.out)) outputs.claim(a.out, record::kJsonOpening);
-  const audit::FoundScene found = audit::find_scene(import::read_motion(a.input, a.read));
+  const motion::Clip clip = import::read_motion(a.input, a.read);
+  run::tell_decisions(a.input.string(), clip, std::cerr);
+  const audit::FoundScene found = audit::find_scene(clip);
   for (const std::string& line : found.words) table_stream(a.out) << line << '\n';
   if (found.scene.flat())
     table_stream(a.out) << "no plate: the floor explains the motion, or no plate does\n";

@@ -5,7 +5,7 @@
 
 namespace mimicx::tools {
 
-void add_read_arguments(Command& command, import::ReadConfig& read) {
+void add_read_arguments(Command& command, import::ReadConfig& read, bool prepares) {
   command.choice("--up", read.up, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}, {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}},
                  "the axis that points up in the files; default: detected");
   command.number("--scale", read.scale, kPositive,
@@ -15,13 +15,18 @@ void add_read_arguments(Command& command, import::ReadConfig& read) {
                  "height of the floor in the files, m, z up; default: detected");
   command.text(
       "--scene",
-      [&read](const std::string& file) {
+      [&read, prepares](const std::string& file) {
         read.scene_from_motion = file == "auto";
+        if (read.scene_from_motion && !prepares)
+          throw UsageError(
+              "--scene: expected a file, as `mimicx scene` writes it, found auto, which is for commands that "
+              "simulate");
         if (!read.scene_from_motion) read.scene = files::read_scene(file);
       },
-      "FILE|auto",
-      "stairs, boxes and chairs of the motions, their floor at z = 0: a JSON file of docs/scenes.md; "
-      "auto, for plan: found from each motion; default: the files' own, else a flat floor");
+      prepares ? "FILE|auto" : "FILE",
+      std::string("stairs, boxes and chairs of the motions, their floor at z = 0: a JSON file of "
+                  "docs/scenes.md; ") +
+          (prepares ? "auto: found from each motion; " : "") + "default: the files' own, else a flat floor");
   command.number(
       "--mass", read.mass, kPositive,
       "mass of the person, kg; default: the usual one of the stature, where the shape comes from joints");

@@ -10,7 +10,8 @@
 namespace mimicx::tools {
 
 /// --up, --scale, --fps …: how to read the files.
-void add_read_arguments(Command& command, import::ReadConfig& read);
+/// @param prepares  the command prepares motions for the simulator: it knows `--scene auto`
+void add_read_arguments(Command& command, import::ReadConfig& read, bool prepares = false);
 
 /// --threads; default: all of the machine.
 void add_threads(Command& command, int& threads);

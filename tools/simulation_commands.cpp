@@ -79,7 +79,7 @@ void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more
       "folder of the run; the same command continues it; default: NAME.mimicx beside "
       "every input, with its clean motion as NAME.clean.EXT. Its clean/ is for trainers and viewers of "
       "SMPL bodies: the inputs' own formats and body models; its motions/ has our body and the forces");
-  add_read_arguments(command, run.read);
+  add_read_arguments(command, run.read, true);
   command.choice("--rate", run.input_rate, {{"30", false}, {"input", true}},
                  "frame rate of the clean copies in the inputs' own formats");
   command.flag("--substeps", run.substeps,

@@ -42,7 +42,7 @@ void declare_teach(CommandLine& line) {
   command.texts("--plans", a->config.plans, "DIR", "folder of a run of `mimicx plan --gains`; repeatable");
   command.folder("--out", a->config.out, "folder of the options; the same command continues it").required();
   command.number("--clusters", a->config.clusters.clusters, kFromOne, "number of options");
-  add_read_arguments(command, run.read);
+  add_read_arguments(command, run.read, true);
   add_fit_arguments(command, run);
   add_seed(command, a->config.school.seed);
   add_force(command, run.force);

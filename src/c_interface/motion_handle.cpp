@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "audit/audit_file.h"
-#include "audit/scene_search.h"
 #include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
@@ -142,9 +141,9 @@ void Motion::set(const std::string& name, const std::string& value) {
   } else if (name == "height") {
     read.height = positive_in(name, value);
   } else if (name == "scene") {
-    finds_scene_ = value == "auto";
+    read.scene_from_motion = value == "auto";
     read.scene.reset();
-    if (!finds_scene_) read.scene = files::scene_from(value, name);
+    if (!read.scene_from_motion) read.scene = files::scene_from(value, name);
   } else if (name == "root") {
     read.root = value;
   } else if (name == "person") {
@@ -189,10 +188,6 @@ bool Motion::clean(const Watcher& watch) {
   const std::filesystem::path input = folder / name_;
   write_file_atomically(input, bytes_);
   plan::PlanMotionsConfig config = config_;
-  if (finds_scene_) {
-    const motion::Clip clip = import::motion_from(bytes_, name_, config.run.read);
-    if (clip.scene.flat()) config.run.read.scene = audit::find_scene(clip).scene;
-  }
   config.run.inputs = {input.string()};
   config.run.out = folder / "run";
   Watched watched(watch);

@@ -46,7 +46,6 @@ class Motion {
   void load();
 
   plan::PlanMotionsConfig config_;
-  bool finds_scene_ = false;    ///< of the motion, before it is cleaned
   std::string name_, bytes_;    ///< the motion as a file
   std::optional<Npz> put_;      ///< being given, member by member
   std::optional<Npz> archive_;  ///< its arrays

@@ -38,8 +38,8 @@ double Scene::height_under(const Vector3d& p, double reach) const {
   return plate ? plate->height : 0.0;
 }
 
-double Scene::clearance(const Vector3d& p) const {
-  const Plate* plate = plate_under(p, kReach);
+double Scene::clearance(const Vector3d& p, const Vector3d& above) const {
+  const Plate* plate = plate_under(above, kReach);
   if (!plate) return p.z();
   const double z = p.z() - plate->height;
   return z < 0.0 ? std::min(0.0, z + plate->give()) : z;

@@ -52,7 +52,9 @@ struct Scene {
   double height_under(const Vector3d& p) const { return height_under(p, kReach); }
   /// Height of a point over the ground under it, m; negative inside it. A point that is in a soft plate no
   /// deeper than it gives is on it: 0; deeper points count from there.
-  double clearance(const Vector3d& p) const;
+  double clearance(const Vector3d& p) const { return clearance(p, p); }
+  /// The same over the ground under another point, of which p is part.
+  double clearance(const Vector3d& p, const Vector3d& above) const;
 
   /// With the centre's offset (x, y) from the middle of a plate along its sides, half extents a and the top
   /// H,

@@ -57,8 +57,6 @@ void require_sense(const ReadConfig& o) {
   require(!o.mass || (*o.mass > 0.0 && std::isfinite(*o.mass)), "the mass must be positive");
   require(!o.height || (*o.height > 0.0 && std::isfinite(*o.height)), "the height must be positive");
   require(!o.floor || std::isfinite(*o.floor), "the height of the floor must be a number");
-  require(!o.scene_from_motion,
-          "--scene auto is for `mimicx plan`; others take the file that `mimicx scene` writes");
   if (o.up) rotation_to_z_up(*o.up);
 }
 
@@ -392,6 +390,7 @@ std::string ReadConfig::text() const {
   if (!joint_map.empty()) add("joint_map=" + joint_map.string());
   if (!root.empty()) add("root=" + root);
   if (person) add("person=" + std::to_string(*person));
+  if (scene_from_motion) add("scene=auto");
   if (scene) {
     std::string plates;
     for (const Plate& p : scene->plates) {

@@ -21,16 +21,15 @@ namespace mimicx::import {
 /// Settings of the user that override what the file says or the reader detects.
 struct ReadConfig {
   std::optional<char> up;  ///< axis that points up in the file: x, y, z; capital letters: the negative axes
-  std::optional<double> scale;  ///< metres per unit of length of the file
-  std::optional<double> fps;    ///< the frame rate the motion was recorded at
-  /// Whoever reads is to find the scene first (audit/scene_search.h); reading itself refuses it.
-  bool scene_from_motion = false;
-  std::optional<Scene> scene;    ///< the ground, in metres, z up, its floor at z = 0; else that of the file
-  std::optional<double> floor;   ///< height of the floor in the file, after axes and scale, m
-  std::optional<double> mass;    ///< of the person, kg
-  std::optional<double> height;  ///< stature of the person, m
-  bool standard_body = false;    ///< ignore the file's body shape
-  std::filesystem::path smplx;   ///< licensed SMPL-X model: joints of the body where betas are SMPL-X's
+  std::optional<double> scale;     ///< metres per unit of length of the file
+  std::optional<double> fps;       ///< the frame rate the motion was recorded at
+  bool scene_from_motion = false;  ///< preparation finds it (run/preparation.h), where the file has none
+  std::optional<Scene> scene;      ///< the ground, in metres, z up, its floor at z = 0; else that of the file
+  std::optional<double> floor;     ///< height of the floor in the file, after axes and scale, m
+  std::optional<double> mass;      ///< of the person, kg
+  std::optional<double> height;    ///< stature of the person, m
+  bool standard_body = false;      ///< ignore the file's body shape
+  std::filesystem::path smplx;     ///< licensed SMPL-X model: joints of the body where betas are SMPL-X's
   std::filesystem::path joint_map;  ///< more joint names for foreign skeletons
   std::string root;  ///< of a BVH with several skeletons: name or number of the root; empty: the person's
   std::optional<int> person;  ///< of an npz with several people, from 1

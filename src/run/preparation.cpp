@@ -1,5 +1,6 @@
 #include "run/preparation.h"
 
+#include "audit/scene_search.h"
 #include "fit/keypoint_fit.h"
 #include "fit/pose_fit.h"
 #include "motion/prepare/prepare.h"
@@ -51,6 +52,27 @@ motion::PreparationConfig preparing(const CorrectionConfig& correction) {
   return config;
 }
 
+/// Finds the scene of a motion that was read on the flat floor, tells it, and reads the motion again on it.
+void put_on_found_scene(const std::filesystem::path& path, import::ReadConfig read, motion::Clip& clip) {
+  const audit::FoundScene found = audit::find_scene(clip);
+  read.scene = found.scene;
+  if (!found.scene.flat()) clip = import::read_motion(path, read);
+  std::vector<std::string> words = found.words;
+  if (words.empty()) words.emplace_back("no plate found, a flat floor");
+  for (const std::string& line : words) {
+    clip.decisions.push_back("scene: " + line);
+    if (!clip.summary.empty()) clip.summary.push_back("scene: " + line);
+  }
+}
+
+/// A fit moves the feet of an estimate by decimetres, and against each other by more than plates reach beyond
+/// the soles that they were found by: they are put where the fitted feet and hips are. Where the fitted
+/// motion has not as many plates, the scene stays.
+void find_plates_again(motion::Clip& fitted) {
+  const Scene again = audit::find_scene(fitted).scene;
+  if (!again.flat()) fitted.scene = again;
+}
+
 }  // namespace
 
 NamedValues settings_of(const CorrectionConfig& correction) {
@@ -66,6 +88,8 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
   fit::FitConfig config;
   config.threads = threads;
   motion.input = import::read_motion(path, read);
+  const bool finds_scene = read.scene_from_motion && motion.input.scene.flat() && motion.input.frames() > 2;
+  if (finds_scene) put_on_found_scene(path, read, motion.input);
   motion.has_fit = correction.fits_keypoints() && motion.input.keypoints.has_value();
   const int fewest = motion.has_fit ? 3 : 2;
   if (motion.input.frames() < fewest)
@@ -81,6 +105,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
     motion.fitted = motion.input;
   else if (!motion.has_fit)
     motion.fitted = fit::fit_poses(motion.input, config, &planting);
+  if (finds_scene && motion.has_fit) find_plates_again(motion.fitted);
   for (const fit::FitReport* report : {&fitting, &planting})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;

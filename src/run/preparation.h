@@ -5,6 +5,9 @@
 /// the keypoints, the two contradict each other; such a reference has no keypoints, unless they are requested
 /// (the paper's method, which has no fit). docs/method.md §5
 ///
+/// Where the scene is asked from the motion (`ReadConfig::scene_from_motion`), it is found in the motion as
+/// it is read, and once more in the fitted one (docs/scenes.md, "Finding the scene").
+///
 /// It never opens any ground truth.
 #pragma once
 

@@ -110,7 +110,7 @@ std::string look_for_a_scene(const motion::Clip& clip) {
   if (!clip.scene.flat() || clip.frames() < 3) return "";
   const audit::FoundScene found = audit::find_scene(clip);
   if (found.scene.flat()) return "";
-  return "looks like steps or a seat (" + found.words.front() + "): try mimicx plan --scene auto";
+  return "looks like steps or a seat (" + found.words.front() + "): try --scene auto";
 }
 
 /// A note where no point of the body comes near any plate of the motion's scene; else empty.
@@ -144,7 +144,9 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
-  for (const std::string& note : {look_for_a_scene(motion.input), doubt_scene(motion.reference)})
+  const bool looked = run.config.read.scene_from_motion;
+  for (const std::string& note :
+       {looked ? "" : look_for_a_scene(motion.input), doubt_scene(motion.reference)})
     if (!note.empty()) entry.notes.push_back(note);
   entry.input_metrics = motion.input_scores.values;
   judge_reference(motion.needs, entry);

@@ -97,7 +97,7 @@ TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
   EXPECT_TRUE(says(found, "a seat of 0.3")) << found.text;
   const Call flat = mimicx("plan " + path("a.npz") + " --limit-seconds 1e-9 --out " + path("flat"));
   EXPECT_TRUE(says(flat, "looks like steps or a seat (a seat of 0.3")) << flat.text;
-  EXPECT_TRUE(says(flat, "): try mimicx plan --scene auto")) << flat.text;
+  EXPECT_TRUE(says(flat, "): try --scene auto")) << flat.text;
   EXPECT_FALSE(says(flat, "nothing comes near")) << flat.text;
   write_file_atomically(path("far.json"),
                         R"({"plates": [{"centre": [40, 20], "half_extents": [0.3, 0.3], "height": 0.37}]})");

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
+#include "motion/prepare/stance.h"
 #include "synth/synthesize.h"
 
 namespace mimicx::run {
@@ -117,6 +118,32 @@ TEST(Preparation, LevelsFeetInTheReferenceOnly) {
       EXPECT_LT(given.angularDistance(exp_map(prepared.fitted.rotations[t][ankle])), 1e-4) << t;
       EXPECT_NEAR(given.angularDistance(prepared.reference.frames[t].q[ankle]), kPitch, 1 * kDegree) << t;
     }
+}
+
+/// The fit moves feet by decimetres and against each other: plates that are found in the input are found
+/// again.
+TEST(Preparation, FoundStepsLieUnderTheFittedFeet) {
+  import::ReadConfig read;
+  read.scene_from_motion = true;
+  const PreparedMotion stairs =
+      prepare_motion(std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/scenes/noisy/stairs_up_1.npz",
+                     read, {.fit = true});
+  const motion::Reference& reference = stairs.reference;
+  EXPECT_EQ(std::count_if(stairs.input.decisions.begin(), stairs.input.decisions.end(),
+                          [](const std::string& line) { return line.starts_with("scene: a step of"); }),
+            reference.scene.plates.count());
+  ASSERT_GE(reference.scene.plates.size(), 3u);
+  for (const Plate& plate : reference.scene.plates) {
+    int standing = 0;
+    for (const BodyPoses& pose : reference.poses) {
+      const motion::SolePositions sole = motion::sole_positions(reference.character, pose);
+      for (const int first : {0, kFootPoints / 2})
+        standing += std::all_of(
+            sole.begin() + first, sole.begin() + first + kFootPoints / 2,
+            [&](const Vector3d& p) { return plate.spans(p) && std::abs(p.z() - plate.height) < 0.01; });
+    }
+    EXPECT_GT(standing, 5) << "step of " << plate.height;
+  }
 }
 
 }  // namespace

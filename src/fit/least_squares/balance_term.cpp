@@ -56,7 +56,7 @@ Support support_of(const FitProblem& problem, const FrameKinematics& k, const Fo
     if (!stands[i]) continue;
     ++s.points;
     s.middle += feet[i].head<2>();
-    s.height += problem.scene.height_under(feet[i]);
+    s.height += problem.scene.height_under(sole_middle(feet, i));
     s.by_frame += point_jacobian(k, problem.foot_points[i].body, feet[i]).topRows<2>();
   }
   if (s.points == 0) return s;

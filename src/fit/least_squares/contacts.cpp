@@ -20,14 +20,22 @@ constexpr int kPointsPerFoot = kFootPoints / 2;
 double floor_under(const PerFrame<FootPositions>& feet, int first, const Scene& scene) {
   std::vector<double> lowest;
   for (const FootPositions& p : feet) {
-    double z = scene.clearance(p[first]);
-    for (int i = first; i < first + kPointsPerFoot; ++i) z = std::min(z, scene.clearance(p[i]));
+    const Vector3d middle = sole_middle(p, first);
+    double z = scene.clearance(p[first], middle);
+    for (int i = first; i < first + kPointsPerFoot; ++i) z = std::min(z, scene.clearance(p[i], middle));
     lowest.push_back(z);
   }
   return ranked(lowest, static_cast<int>(kLowShare * static_cast<double>(lowest.size())));
 }
 
 }  // namespace
+
+Vector3d sole_middle(const FootPositions& feet, int point) {
+  const int first = point - point % kPointsPerFoot;
+  Vector3d sum = Vector3d::Zero();
+  for (int i = first; i < first + kPointsPerFoot; ++i) sum += feet[i];
+  return sum / kPointsPerFoot;
+}
 
 Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, const Scene& scene, bool settled) {
   Contacts contacts(feet.size());
@@ -37,9 +45,10 @@ Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, const Sc
     const double ceiling = settled ? kHeight : floor_under(feet, first, scene) + kUnsettledHeight;
     for (int t = 0; t <= last; ++t) {
       const int before = std::max(t - window, 0), after = std::min(t + window, last);
+      const Vector3d middle = sole_middle(feet[t], first);
       for (int i = first; i < first + kPointsPerFoot; ++i) {
         const double speed = (feet[after][i] - feet[before][i]).norm() * fps / (after - before);
-        contacts[t][i] = scene.clearance(feet[t][i]) < ceiling && speed < kSpeed;
+        contacts[t][i] = scene.clearance(feet[t][i], middle) < ceiling && speed < kSpeed;
       }
     }
   }

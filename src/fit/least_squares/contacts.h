@@ -8,6 +8,10 @@ namespace mimicx::fit {
 /// Whether a foot point stands in a frame, [frames][kFootPoints].
 using Contacts = PerFrame<Array<bool, kFootPoints>>;
 
+/// The middle of the sole that a foot point belongs to, m: a foot stands on what is under it. Toes that an
+/// estimate has in the side of the next step do not.
+Vector3d sole_middle(const FootPositions& feet, int point);
+
 /// A foot point stands where it is low and slow.
 /// @param settled  true: the motion is on the floor, and heights count from z = 0. False: they count from a
 ///                 low percentile of the heights of the point's own foot

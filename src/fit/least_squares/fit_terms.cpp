@@ -197,7 +197,7 @@ void Assembler::acceleration(BorderedBand& system) const {
 
 /// Weight of the height of a foot point: where it stands, and where it is below the floor. Else 0.
 double Assembler::standing_weight(int t, int i) const {
-  const double z = problem.scene.clearance(feet[t][i]);
+  const double z = problem.scene.clearance(feet[t][i], sole_middle(feet[t], i));
   double w = 0.0;
   if (contacts[t][i]) w += information(problem.config.floor_sigma) * cauchy(z * z, kFloorKernel);
   if (z < 0.0) w += information(problem.config.penetration_sigma);
@@ -219,7 +219,7 @@ struct HeightJacobian {
 /// Heights of the foot points over the ground: 0 where they stand, nowhere below 0.
 void Assembler::standing(int t, BorderedBand& system) const {
   for (int i = 0; i < kFootPoints; ++i) {
-    const double z = problem.scene.clearance(feet[t][i]), w = standing_weight(t, i);
+    const double z = problem.scene.clearance(feet[t][i], sole_middle(feet[t], i)), w = standing_weight(t, i);
     if (w == 0.0) continue;
     const auto [J, G] = HeightJacobian(problem, motion[t], feet[t], i);
     system.diagonal[t].noalias() += w * J.transpose() * J;

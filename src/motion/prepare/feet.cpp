@@ -45,13 +45,17 @@ Quaterniond levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& st
 
 PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps, const Scene& scene) {
   const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
-  PerFrame<double> heights;
-  for (const BodyPoses& pose : poses) heights.push_back(scene.clearance(pose.p_WB[ankle]));
-  const double low = quantile(heights, kLowShare);
-  PerFrame<bool> standing(poses.size());
+  const auto slow = [&](int t) {
+    return speed(poses, t, ankle, fps) < kStandingSpeed && speed(poses, t, ball, fps) < kStandingSpeed;
+  };
+  const auto height = [&](int t) { return scene.clearance(poses[t].p_WB[ankle]); };
+  PerFrame<double> heights;  // beside plates not of a foot that passes their edges
   for (int t = 0; t < poses.count(); ++t)
-    standing[t] = heights[t] < low + kStandingHeight && speed(poses, t, ankle, fps) < kStandingSpeed &&
-                  speed(poses, t, ball, fps) < kStandingSpeed;
+    if (scene.flat() || slow(t)) heights.push_back(height(t));
+  PerFrame<bool> standing(poses.size(), false);
+  if (heights.empty()) return standing;
+  const double low = quantile(heights, kLowShare);
+  for (int t = 0; t < poses.count(); ++t) standing[t] = height(t) < low + kStandingHeight && slow(t);
   return standing;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace mimicx::fit {
 namespace {
 
@@ -20,6 +22,25 @@ TEST(FitContacts, PlantedFootStandsAndSwingingFootDoesNot) {
     for (Vector3d& p : frame) p.z() += 0.2;  // an estimate that floats
   EXPECT_FALSE(find_contacts(feet, 30.0, {}, true)[10][0]);
   EXPECT_TRUE(find_contacts(feet, 30.0, {}, false)[10][0]);
+}
+
+/// Estimates have toes some centimetres inside the next step. Once they are in its reach, they would be
+/// pulled onto it, and the foot would be bent.
+TEST(FitContacts, ToesInTheSideOfTheNextStepStandWithTheirFoot) {
+  Scene steps;
+  steps.plates.push_back({{0.0, 0.0}, 0.0, {0.15, 0.5}, 0.10});
+  steps.plates.push_back({{0.3, 0.0}, 0.0, {0.15, 0.5}, 0.17});
+  PerFrame<FootPositions> feet(10);
+  for (FootPositions& frame : feet)
+    for (int i = 0; i < kFootPoints; ++i)  // heel, ball, toe of both feet, the toes 5 cm in the second step
+      frame[i] = Vector3d(-0.06 + 0.13 * (i % 6 / 2), i < 6 ? 0.1 : -0.1, 0.10);
+  ASSERT_LT(steps.clearance(feet[5][4]), -0.06) << "alone, it is in the second step";
+  for (int i = 0; i < kFootPoints; ++i)
+    EXPECT_NEAR(steps.clearance(feet[5][i], sole_middle(feet[5], i)), 0.0, 1e-12);
+  for (FootPositions& frame : feet)  // 5 cm over their step, 2 cm under the next one
+    for (Vector3d& p : frame) p.z() += 0.05;
+  const Contacts hanging = find_contacts(feet, 30.0, steps, true);
+  EXPECT_EQ(std::count(hanging[5].begin(), hanging[5].end(), true), 0);
 }
 
 }  // namespace
