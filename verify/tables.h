@@ -41,7 +41,7 @@ static const struct { int body, child; Vec from, to; double radius; } CAPSULES[]
     {16, 18, {.10, .10, .10}, {.95, .95, .95}, .045}, {18, 20, {.05, .05, .05}, {.95, .95, .95}, .036}};
 /* "Contact points": spheres on the axes of capsules, at these shares of the axis. */
 static const struct { int body; double share; } SPHERES[] = {
-    {0, 0}, {0, 1}, {9, 0}, {9, 1}, {15, 0}, {15, 1}, {20, 0}, {20, 1}, {21, 0}, {21, 1}, {3, .5}, {6, .5}, {12, .5},
+    {9, 0}, {9, 1}, {15, 0}, {15, 1}, {20, 0}, {20, 1}, {21, 0}, {21, 1}, {3, .5}, {6, .5}, {12, .5},
     {1, .5}, {2, .5}, {4, 0}, {5, 0}, {18, 0}, {19, 0}, {13, .8}, {14, .8}, {16, .3}, {17, .3}};
 /* "Self contact": the first bodies of pairs, and the second bodies of each. */
 static const struct { int first, count, second[13]; } PAIRS[] = {

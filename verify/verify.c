@@ -211,28 +211,28 @@ static void build_bodies(Body *bodies, const double *beta) {
     }
     for (int i = 0; i < BODIES; i++) {
         const Row *row = &ROWS[LEFT_OF[i]];
-        bodies[i].kp = row->kp * whole / 70;
-        bodies[i].kd = bodies[i].kp / 10;
+        bodies[i].kd = (bodies[i].kp = row->kp * whole / 70) / 10;
         bodies[i].armature = row->armature;
         bodies[i].bound = row->bound * whole / 70;
     }
 }
-/* "Contact points": of the left foot and its instep, of their mirror images, and spheres on the axes of capsules. */
+/* "Contact points": of the left foot, its instep and the pelvis, their mirror images, and spheres on the axes. */
 static void build_points(Point *points, const Body *bodies, Scales s) {
     Vec ball = bodies[10].offset, half = {.040 * s.size, 0, 0};
     double heel = .026 * s.size, toe = .030 * s.size, sole = ball.y - .022;
-    const Point left[] = {
+    const Point one[] = {
         {7, {-heel, sole, -.052 * s.foot}, 0}, {7, {heel, sole, -.052 * s.foot}, 0},
         {7, minus(ball, half), .022}, {7, plus(ball, half), .022},
         {10, {-toe, -.022, .068 * s.foot}, 0}, {10, {toe, -.022, .062 * s.foot}, 0},
-        {7, {ball.x, sole + .036 * s.size, .6 * ball.z}, .026 * s.size}};
-    for (int i = 0; i < COUNT(left); i++) {
-        points[i < 6 ? i : 12] = left[i];
-        points[i < 6 ? i + 6 : 13] = (Point){left[i].body + 1, mirrored(left[i].centre), left[i].radius};
+        {7, {ball.x, sole + .036 * s.size, .6 * ball.z}, .026 * s.size},
+        {0, times((Vec){-.062, -.085, -.043}, s.size), .105 * s.girth - .025 * s.size}};
+    for (int i = 0; i < COUNT(one); i++) {
+        points[i < 6 ? i : 2 * i] = one[i];
+        points[i < 6 ? i + 6 : 2 * i + 1] = (Point){one[i].body + (i < 7), mirrored(one[i].centre), one[i].radius};
     }
     for (int i = 0; i < COUNT(SPHERES); i++) {
         Capsule capsule = bodies[SPHERES[i].body].capsule;
-        points[14 + i] = (Point){SPHERES[i].body, on_axis(capsule, SPHERES[i].share), capsule.radius};
+        points[16 + i] = (Point){SPHERES[i].body, on_axis(capsule, SPHERES[i].share), capsule.radius};
     }
 }
 /* Rules 3, 4 and 27. The laws below use the body that is built here, not the recorded one. The floor has no sides. */

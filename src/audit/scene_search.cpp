@@ -35,7 +35,7 @@ constexpr double kMargin = 0.06,
 constexpr double kLevelThigh = 0.55;  // largest sine of its slope
 constexpr double kLowestSeat = 0.20;  // m
 constexpr double kWindow = 0.2;       // of the needs, s
-constexpr double kCushion = 5e4, kCushionDamping = 1.6e3;  // of a seat, N/m, N·s/m
+constexpr double kCushion = 3e4, kCushionDamping = 1.2e3;  // of a seat and flesh, N/m, N·s/m
 
 /// Points that push together while a foot stands or hips rest.
 struct Stance {

@@ -205,8 +205,13 @@ void add_instep(Character& c, const Scales& s, int side) {
   c.contact_points.push_back({side > 0 ? kLeftAnkle : kRightAnkle, above_sole, radius});
 }
 
-/// Spheres on the axes of the capsules of all bodies but the feet.
-void add_body_points(Character& c) {
+/// How much lower the spheres of the pelvis reach than its capsule, and by how much they are smaller, m.
+constexpr double kSeatLower = 0.04, kSeatThinner = 0.025;
+
+/// Spheres on the axes of the capsules of all bodies but the feet. Those of the pelvis are smaller and lower,
+/// and reach as far back: a body sits on its ischial tuberosities and the flesh under them (docs/physics.md
+/// §4).
+void add_body_points(Character& c, const Scales& s) {
   const auto add = [&](int body, double along) {
     const Capsule& k = c.capsule[body];
     c.contact_points.push_back({body, k.a_B + along * (k.b_B - k.a_B), k.radius});
@@ -215,6 +220,11 @@ void add_body_points(Character& c) {
     add(body, 0.0);
     add(body, 1.0);
   }
+  for (ContactPoint& point : c.contact_points)
+    if (point.body == kPelvis) {
+      point.radius -= kSeatThinner * s.size;
+      point.p_B -= s.size * Vector3d(0.0, kSeatLower + kSeatThinner, kSeatThinner);
+    }
   for (int body : {kSpine1, kSpine2, kNeck}) add(body, 0.5);
   for (int body : {kLeftHip, kRightHip}) add(body, 0.5);
   for (int body : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow}) add(body, 0.0);
@@ -269,7 +279,7 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
   add_foot_points(c, scales, -1);
   add_instep(c, scales, 1);
   add_instep(c, scales, -1);
-  add_body_points(c);
+  add_body_points(c, scales);
   c.self_pairs = make_self_pairs();
   const double strength = c.total_mass() / kStandardMass;
   for (int i = 1; i < kBodies; ++i) {

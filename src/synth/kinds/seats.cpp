@@ -21,8 +21,7 @@ double knee_height(const Character& c) {
 
 /// A plate behind the feet.
 /// @param deep   m from front to back  @param wide  m from side to side
-/// @param share  of the height of thighs that are level. Up to 0.95 the pelvis, which is thinner than the
-///               thighs, rests on the plate as well
+/// @param share  of the height of thighs that are level
 Scene seat_behind(const PlanRequest& request, double deep, double wide, double share) {
   const Character& c = request.character;
   const double front = -0.18 * c.joint_offset[kLeftKnee].norm();
@@ -74,6 +73,9 @@ class Sitter {
   void gesture(const PlanFrame& upper, double seconds) { go(sitting(upper), seated(), on_seat(), seconds); }
   /// Over the hands behind the hips and then the forearms onto the back, and up again the same way.
   void lie(double rest) {
+    PlanFrame open = upright_;  // the hands go around the hips
+    for (ArmPosture& arm : open.arm) arm = {-10.0 * kDegree, 45.0 * kDegree, 0.0, 20.0 * kDegree};
+    gesture(open, 0.6);
     lean_back(-20.0, 0.15, 1.0);
     lean_back(-38.0, 0.3, 1.0);
     lean_back(-55.0, 0.4, 1.2);
@@ -82,6 +84,7 @@ class Sitter {
     lean_back(-55.0, 0.4, 1.2);
     lean_back(-38.0, 0.3, 1.2);
     lean_back(-20.0, 0.15, 1.0);
+    gesture(open, 0.6);
   }
   const PlanFrame& upright() const { return upright_; }
 
@@ -98,7 +101,7 @@ class Sitter {
     const bool on_back = tilt < -80.0, on_elbows = !on_back && tilt < -50.0;
     KeyPose key = reclined(tilt);
     std::vector<Bearing> bearings =
-        on_back ? std::vector{rolling_on(thighs(), height_), rolling_on(back(), height_)}
+        on_back ? std::vector{rolling_on(hips(), height_), rolling_on(back(), height_)}
                 : std::vector{rolling_on(seat(), height_)};
     std::vector<Load> loads = {{seat(), 0.95 - share}, {sole(0), 0.025}, {sole(1), 0.025}};
     if (on_back) loads.push_back({back(), share});
@@ -157,7 +160,7 @@ class Sitter {
 /// Sits down, calls `busy(sitter)`, and stands up.
 template <class Busy>
 SceneMotion on_seat(const PlanRequest& request, double deep, double wide, const Busy& busy) {
-  const double share = request.random.uniform(0.86, 0.95);
+  const double share = request.random.uniform(0.92, 1.0);
   SceneMotion motion{{}, seat_behind(request, deep, wide, share)};
   Sketch s(request, random_stance(request, 1.0, 1.3, 3.0, 9.0), motion.scene);
   Sitter sitter(request.character, s, motion.scene.plates.front().height);
@@ -186,7 +189,7 @@ SceneMotion sit_and_reach(const PlanRequest& request) {
 }
 
 SceneMotion lie_on_bed(const PlanRequest& request) {
-  return on_seat(request, 2.0, 1.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(1.0, 1.8)); });
+  return on_seat(request, 2.0, 1.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(1.2, 2.0)); });
 }
 
 }  // namespace mimicx::synth
