@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -26,7 +27,16 @@ int scene(const SceneArguments& a) {
   if (!is_standard_output(a.out)) outputs.claim(a.out, record::kJsonOpening);
   const motion::Clip clip = import::read_motion(a.input, a.read);
   run::tell_decisions(a.input.string(), clip, std::cerr);
-  const audit::FoundScene found = audit::find_scene(clip);
+  audit::FoundScene found;
+  found.scene = clip.scene;
+  for (const Plate& plate : clip.scene.plates) {
+    char line[160];
+    std::snprintf(line, sizeof line, "a plate of the file: %.3f m high, %.2f x %.2f m, at (%.2f, %.2f) m",
+                  plate.height, 2.0 * plate.half_extents.x(), 2.0 * plate.half_extents.y(), plate.centre.x(),
+                  plate.centre.y());
+    found.words.emplace_back(line);
+  }
+  if (clip.scene.flat()) found = audit::find_scene(clip);
   for (const std::string& line : found.words) table_stream(a.out) << line << '\n';
   if (found.scene.flat())
     table_stream(a.out) << "no plate: the floor explains the motion, or no plate does\n";

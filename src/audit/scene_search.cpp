@@ -23,6 +23,10 @@ constexpr int kFlight = 3;             // steps of equal rises, or more
 constexpr double kUnequalRise = 0.05;  // of an estimated step from its place in such a flight, m
 constexpr double kSameSeat = 0.4;      // from its middle to that of another one, m
 constexpr double kRises = 0.15;        // of a standing foot, m/s
+constexpr double kLevelSole = 0.5;     // vertical part of its normal
+constexpr double kSamePlace = 0.08;    // of a foot that has not stepped, m
+constexpr double kSameStep = 0.4;      // from its middle to where feet stand on it again, m
+constexpr double kLeastHalf = 0.05;    // of a plate's side, m
 constexpr double kReach = 0.03;        // a point so far over the ground touches it, m
 constexpr double kMissing = 0.15;      // W
 constexpr double kOnOneFoot = 0.7;     // share of a step's frames in which less may be missing
@@ -82,6 +86,10 @@ class SupportedMotion {
     std::vector<double> z;
     for (const int i : points) z.push_back(place_[t][i].z());
     return median(z);
+  }
+
+  bool level(int t, int foot) const {
+    return (poses_[t].q_WB[kLeftAnkle + foot] * Vector3d::UnitY()).z() > kLevelSole;
   }
 
   /// Mean vertical speed of the lowest of the points around frame t, m/s.
@@ -145,7 +153,7 @@ std::vector<Stance> stances(const SupportedMotion& e) {
     PerFrame<bool> stands(static_cast<std::size_t>(e.frames()), false);
     for (int t = 0; t < e.frames(); ++t)
       stands[t] =
-          std::abs(e.rise(t, points)) < kRises &&
+          std::abs(e.rise(t, points)) < kRises && e.level(t, foot) &&
           std::count_if(points.begin(), points.end(), [&](int i) { return e.speed(t, i) < kSlow; }) >= 2;
     for_each_run(stands, e.fps(), kStands, [&](int first, int last) {
       std::vector<double> heights;
@@ -180,6 +188,26 @@ double group_height(const Group& group) {
   std::vector<double> heights;
   for (const Stance& stance : group) heights.push_back(stance.height);
   return median(heights);
+}
+
+/// Mean place of the balls over the stances of a group, m.
+Eigen::Vector2d place_of(const SupportedMotion& e, const Group& group) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Stance& stance : group)
+    sum += e.place((stance.first + stance.last) / 2, stance.points[2]).head<2>();
+  return sum / static_cast<double>(group.size());
+}
+
+/// Whether the foot that stands longest stands lower at another time without having stepped: the estimate
+/// drifts.
+bool drifts(const SupportedMotion& e, const std::vector<Stance>& all, const Group& group) {
+  const Stance& longest = *std::max_element(group.begin(), group.end(), [](const Stance& a, const Stance& b) {
+    return a.last - a.first < b.last - b.first;
+  });
+  return std::any_of(all.begin(), all.end(), [&](const Stance& other) {
+    return other.points == longest.points && other.height < longest.height - kSameHeight &&
+           (place_of(e, {other}) - place_of(e, {longest})).norm() < kSamePlace;
+  });
 }
 
 std::vector<Group> raised_groups(const std::vector<Stance>& all, double floor) {
@@ -250,7 +278,8 @@ void cut_at(const Eigen::Vector2d& point, Plate& plate) {
   const Eigen::Vector2d from = turn.inverse() * (point - plate.centre);
   const Eigen::Vector2d behind = plate.half_extents - from.cwiseAbs();
   const int axis = behind.x() < behind.y() ? 0 : 1;
-  const double cut = 0.5 * behind[axis];
+  const double cut =
+      std::clamp(0.5 * behind[axis], 0.0, std::max(0.0, plate.half_extents[axis] - kLeastHalf));
   plate.half_extents[axis] -= cut;
   plate.centre -= turn * (std::copysign(cut, from[axis]) * Eigen::Vector2d::Unit(axis));
 }
@@ -325,9 +354,18 @@ void find_steps(const SupportedMotion& e, const std::vector<Stance>& all, FoundS
       with.push_back(rest.missing);
       carried.push_back(rest.carried);
     }
-    if (without.empty()) continue;
+    if (without.empty() || drifts(e, all, group)) continue;
     const double missing = quantile(without, kOnOneFoot), remains = median(with), load = median(carried);
     if (missing < kMissing || remains > std::max(kExplained, kRemains * missing) || load < kCarries) continue;
+    const auto again = std::find_if(accepted.begin(), accepted.end(), [&](const Group& other) {
+      return std::abs(group_height(other) - group_height(group)) < kSameHeight &&
+             (place_of(e, other) - place_of(e, group)).norm() < kSameStep;
+    });
+    if (again != accepted.end()) {
+      again->insert(again->end(), group.begin(), group.end());
+      heights[static_cast<std::size_t>(again - accepted.begin())] = group_height(*again) - found.floor;
+      continue;
+    }
     accepted.push_back(group);
     heights.push_back(group_height(group) - found.floor);
     loads.push_back(load);
@@ -382,7 +420,7 @@ void find_seats(const SupportedMotion& e, const std::vector<Group>& steps, Found
     return feet < found.floor + kLowestPlate ? feet : found.floor;
   };
   PerFrame<bool> sits(static_cast<std::size_t>(e.frames()), false);
-  for (int t = 0; t < e.frames(); ++t) sits[t] = may_sit(e, t, seat, found.floor);
+  for (int t = 0; t < e.frames(); ++t) sits[t] = may_sit(e, t, seat, found.floor) && !feet_and(t, {}).empty();
   for_each_run(sits, e.fps(), kSits, [&](int first, int last) {
     std::vector<double> without, with, carried, heights;
     Eigen::Vector2d ahead = Eigen::Vector2d::Zero();
@@ -426,7 +464,7 @@ FoundScene find_scene(const motion::Clip& clip) {
       lowest.push_back(std::min(e.lowest_of(t, foot_points(0)), e.lowest_of(t, foot_points(1))));
   const double least = *std::min_element(lowest.begin(), lowest.end());
   std::erase_if(lowest, [&](double height) { return height > least + kSameHeight; });
-  found.floor = median(lowest);
+  found.floor = clip.on_floor ? 0.0 : median(lowest);
   std::vector<Group> steps;
   find_steps(e, all, found, steps);
   find_seats(e, steps, found);

@@ -54,9 +54,10 @@ WayOut Scene::way_out(const Vector3d& centre, double radius) const {
     const double x = from.dot(first), y = from.dot(second);
     const WayOut along{plate.half_extents.x() + radius - std::abs(x), x < 0.0 ? Vector3d(-first) : first},
         across{plate.half_extents.y() + radius - std::abs(y), y < 0.0 ? Vector3d(-second) : second},
-        up{radius - from.z(), Vector3d::UnitZ()};
-    const WayOut shortest =
-        std::min({along, across, up}, [](const WayOut& a, const WayOut& b) { return a.depth < b.depth; });
+        up{radius - from.z(), Vector3d::UnitZ()},
+        down{radius + from.z() + kSides - kReach, -Vector3d::UnitZ()};
+    const WayOut shortest = std::min({along, across, up, down},
+                                     [](const WayOut& a, const WayOut& b) { return a.depth < b.depth; });
     if (shortest.depth > deepest.depth) deepest = shortest;
   }
   return deepest;

@@ -59,13 +59,15 @@ struct Scene {
   /// With the centre's offset (x, y) from the middle of a plate along its sides, half extents a and the top
   /// H,
   ///
-  ///     depth = max(0, min(a_x + r − |x|, a_y + r − |y|, H − kReach + r − z))
+  ///     depth = max(0, min(a_x + r − |x|, a_y + r − |y|, H − kReach + r − z, z + r − (H − kSides)))
   ///
-  /// of the plate of at least `kSolid` that the sphere is deepest in: to the sides or up, where contact is.
+  /// of the plate of at least `kSolid` that the sphere is deepest in: to the sides, up, where contact is, or
+  /// down: sides are as high as a riser, and there is room under tables and landings.
   /// @param radius  r, m
   WayOut way_out(const Vector3d& centre, double radius) const;
 
   static constexpr double kReach = 0.08;  ///< m
+  static constexpr double kSides = 0.25;  ///< the sides reach so far under the top, m
   static constexpr double kSolid = 1e5;   ///< least stiffness of a box with sides, N/m
 };
 

@@ -15,8 +15,9 @@ P way_out(const ModelPlate<float>& plate, const Vec3<P>& p, float radius) {
   const P along = cosine * x + sine * y, across = cosine * y - sine * x;
   const P first = P(plate.half_x + radius) - max(along, -along),
           second = P(plate.half_y + radius) - max(across, -across),
-          up = P(plate.height - static_cast<float>(Scene::kReach) + radius) - p.z;
-  return min(min(first, second), up);
+          up = P(plate.height - static_cast<float>(Scene::kReach) + radius) - p.z,
+          down = P(radius - (plate.height - static_cast<float>(Scene::kSides))) + p.z;
+  return min(min(first, second), min(up, down));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ constexpr std::size_t kMaxDepth = 256;  ///< of nested brackets
 /// Builds a value from the events of nlohmann's parser.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
+  explicit Builder(const std::string& text) : text_(text) {}
   Json take() { return std::move(root_); }
 
   bool null() override { return put(Json()); }
@@ -29,16 +30,18 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception&) override {
-    throw JsonError("no JSON at byte " + std::to_string(byte));
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text_.size()));
+    throw JsonError("no JSON at line " + std::to_string(1 + std::count(text_.begin(), end, '\n')));
   }
 
  private:
   bool put(Json value) {
     if (open_.empty())
       root_ = std::move(value);
-    else if (open_.back().is_object())
+    else if (open_.back().is_object()) {
+      if (open_.back().contains(names_.back())) throw JsonError('"' + names_.back() + "\" twice");
       open_.back()[names_.back()] = std::move(value);
-    else
+    } else
       open_.back().push_back(std::move(value));
     return true;
   }
@@ -55,6 +58,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return put(std::move(value));
   }
 
+  const std::string& text_;
   Json root_;
   std::vector<Json> open_;          ///< objects and arrays around what comes next, outermost first
   std::vector<std::string> names_;  ///< of each of these, the member that comes next
@@ -88,7 +92,7 @@ Json::Json(std::initializer_list<Json> values) {
 }
 
 Json Json::parse(const std::string& text) {
-  Builder builder;
+  Builder builder(text);
   nlohmann::json::sax_parse(text, &builder);
   return builder.take();
 }

@@ -66,11 +66,16 @@ void put_on_found_scene(const std::filesystem::path& path, import::ReadConfig re
 }
 
 /// A fit moves the feet of an estimate by decimetres, and against each other by more than plates reach beyond
-/// the soles that they were found by: they are put where the fitted feet and hips are. Where the fitted
-/// motion has not as many plates, the scene stays.
-void find_plates_again(motion::Clip& fitted) {
-  const Scene again = audit::find_scene(fitted).scene;
-  if (!again.flat()) fitted.scene = again;
+/// the soles that they were found by: they are put where the fitted feet and hips are. Where nothing
+/// is found in the fitted motion, the scene stays.
+/// @return a note
+std::string find_plates_again(motion::Clip& fitted) {
+  const audit::FoundScene again = audit::find_scene(fitted);
+  if (again.scene.flat()) return "scene: not found again in the fitted motion: it stays where it was";
+  fitted.scene = again.scene;
+  std::string note = "scene in the fitted motion: ";
+  for (const std::string& line : again.words) note += (line == again.words.front() ? "" : "; ") + line;
+  return note;
 }
 
 }  // namespace
@@ -105,7 +110,8 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
     motion.fitted = motion.input;
   else if (!motion.has_fit)
     motion.fitted = fit::fit_poses(motion.input, config, &planting);
-  if (finds_scene && motion.has_fit) find_plates_again(motion.fitted);
+  if (finds_scene && motion.has_fit && !motion.input.scene.flat())
+    motion.notes.push_back(find_plates_again(motion.fitted));
   for (const fit::FitReport* report : {&fitting, &planting})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;

@@ -110,7 +110,7 @@ std::string look_for_a_scene(const motion::Clip& clip) {
   if (!clip.scene.flat() || clip.frames() < 3) return "";
   const audit::FoundScene found = audit::find_scene(clip);
   if (found.scene.flat()) return "";
-  return "looks like steps or a seat (" + found.words.front() + "): try --scene auto";
+  return "looks like steps or a seat (" + found.words.front() + "): try --scene auto, with another --out";
 }
 
 /// A note where no point of the body comes near any plate of the motion's scene; else empty.

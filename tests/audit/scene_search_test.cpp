@@ -131,6 +131,46 @@ TEST(FindScene, StepsOfAFlightRiseEqually) {
     EXPECT_NEAR(found.plates[i].height, (i + 1) * found.plates[0].height, 1e-12);
 }
 
+/// Up, down backwards, and up again: the same steps, not three times as many.
+TEST(FindScene, StepsThatAreUsedAgainAreTheSame) {
+  const Known k = known("stairs_up");
+  motion::Clip clip = k.clip;
+  const auto append = [&](bool reversed) {
+    for (int t = 0; t < k.clip.frames(); ++t) {
+      const auto from = static_cast<std::size_t>(reversed ? k.clip.frames() - 1 - t : t);
+      clip.rotations.push_back(k.clip.rotations[from]);
+      clip.trans.push_back(k.clip.trans[from]);
+    }
+  };
+  append(true), append(false);
+  EXPECT_EQ(find_scene(clip).scene.plates.count(), k.scene.plates.count());
+}
+
+/// Two squats, between which the estimate rises by 20 cm: nobody has stepped.
+TEST(FindScene, MotionThatDriftsUpIsOnNoStep) {
+  synth::SynthConfig config;
+  config.kind = "squat";
+  motion::Clip clip = synth::synthesize(config);
+  const int frames = clip.frames();
+  for (int t = 0; t < frames; ++t) {
+    clip.rotations.push_back(clip.rotations[static_cast<std::size_t>(t)]);
+    clip.trans.push_back(clip.trans[static_cast<std::size_t>(t)] + 0.2 * Vector3d::UnitZ());
+  }
+  EXPECT_TRUE(find_scene(clip).scene.flat());
+}
+
+TEST(FindScene, FloorThatIsKnownMakesAStepOfAPersonWhoNeverLeavesIt) {
+  synth::SynthConfig config;
+  config.kind = "squat";
+  motion::Clip clip = synth::synthesize(config);
+  for (Vector3d& p : clip.trans) p.z() += 0.4;
+  EXPECT_TRUE(find_scene(clip).scene.flat());
+  clip.on_floor = true;
+  const FoundScene found = find_scene(clip);
+  ASSERT_EQ(found.scene.plates.count(), 1);
+  EXPECT_NEAR(found.scene.plates[0].height, 0.4, 0.01);
+}
+
 TEST(FindScene, RefusesTwoFrames) {
   motion::Clip clip = known("kerb").clip;
   clip.rotations.resize(2);

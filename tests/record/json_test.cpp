@@ -101,6 +101,8 @@ TEST(Json, ErrorsSayWhatWasFound) {
   };
   EXPECT_EQ(found("{}", [](const Json& j) { j.at("run"); }), "no member run");
   EXPECT_EQ(found("3", [](const Json& j) { j.items(); }), "a value that is no object");
+  EXPECT_EQ(found("{\n\"a\": 1,\n\"b\" 2}", [](const Json&) {}), "no JSON at line 3");
+  EXPECT_EQ(found(R"({"a": 1, "a": 2})", [](const Json&) {}), "\"a\" twice");
   EXPECT_EQ(found("-3", [](const Json& j) { j.get<std::uint64_t>(); }), "a negative number");
 }
 
