@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/elementary.h"
 #include "synth/kinds/random_postures.h"
 #include "synth/sketch.h"
 
