@@ -118,7 +118,7 @@ class Crawler {
             {}, 0.5 * seconds);
   }
   void onto_the_front(double rest) {
-    constexpr double kBack = 0.44;  // m
+    constexpr double kBack = 0.60;  // m
     move_leg(0, -kBack, legs_back(1), false);
     move_leg(1, -kBack, legs_back(2), false);
     k_.go(lying(), {on(hand(0)), on(hand(1)), on(toes(0)), on(toes(1)), on(front(0)), on(front(1))}, {}, 1.4);
