@@ -26,6 +26,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
+    if (open_.back().contains(name)) throw JsonError('"' + name + "\" twice");
     names_.back() = std::move(name);
     return true;
   }
@@ -38,10 +39,9 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool put(Json value) {
     if (open_.empty())
       root_ = std::move(value);
-    else if (open_.back().is_object()) {
-      if (open_.back().contains(names_.back())) throw JsonError('"' + names_.back() + "\" twice");
+    else if (open_.back().is_object())
       open_.back()[names_.back()] = std::move(value);
-    } else
+    else
       open_.back().push_back(std::move(value));
     return true;
   }
