@@ -11,7 +11,7 @@
 /// Knees and elbows are exact hinges throughout.
 ///
 /// The solver is Gauss-Newton on a block-banded system with a border (least_squares/bordered_band.h).
-/// What it does not do: no meshes of other bodies, only a flat floor. It cannot separate depth from focal
+/// What it does not do: no meshes of other bodies, no slopes. It cannot separate depth from focal
 /// length: the remaining error of the root is nearly all depth.
 #pragma once
 

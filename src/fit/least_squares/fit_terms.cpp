@@ -195,9 +195,14 @@ void Assembler::acceleration(BorderedBand& system) const {
   add_differences<kBodies>(jacobian, weights, system);
 }
 
+/// Height of a foot point over the ground that its foot stands on, m.
+double height_over_ground(const Scene& scene, const FootPositions& feet, int i) {
+  return scene.flat() ? feet[i].z() : scene.clearance(feet[i], sole_middle(feet, i));
+}
+
 /// Weight of the height of a foot point: where it stands, and where it is below the floor. Else 0.
 double Assembler::standing_weight(int t, int i) const {
-  const double z = problem.scene.clearance(feet[t][i], sole_middle(feet[t], i));
+  const double z = height_over_ground(problem.scene, feet[t], i);
   double w = 0.0;
   if (contacts[t][i]) w += information(problem.config.floor_sigma) * cauchy(z * z, kFloorKernel);
   if (z < 0.0) w += information(problem.config.penetration_sigma);
@@ -219,7 +224,7 @@ struct HeightJacobian {
 /// Heights of the foot points over the ground: 0 where they stand, nowhere below 0.
 void Assembler::standing(int t, BorderedBand& system) const {
   for (int i = 0; i < kFootPoints; ++i) {
-    const double z = problem.scene.clearance(feet[t][i], sole_middle(feet[t], i)), w = standing_weight(t, i);
+    const double z = height_over_ground(problem.scene, feet[t], i), w = standing_weight(t, i);
     if (w == 0.0) continue;
     const auto [J, G] = HeightJacobian(problem, motion[t], feet[t], i);
     system.diagonal[t].noalias() += w * J.transpose() * J;
