@@ -72,10 +72,10 @@ std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::
                                const import::ReadConfig& read) {
   if (import::recognise(bytes) == import::MotionFormat::kNpz) {
     const Npz npz = parse_npz(bytes, path.string());
-    const bool forces = holds_substeps(npz) || (npz.has("joint_torques") && !poses_alone);
+    const bool steps = holds_substeps(npz), forces = steps || (npz.has("joint_torques") && !poses_alone);
     if (forces && read.scene)
       throw DataError(path.string(), "--scene", "none: the file's forces were made on its own scene", "one");
-    if (holds_substeps(npz)) {
+    if (steps) {
       const SubstepMotion motion = read_substeps(npz);
       return {audit_steps(motion), audit_replayed_steps(motion)};
     }

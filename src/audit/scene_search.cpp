@@ -190,11 +190,14 @@ double group_height(const Group& group) {
   return median(heights);
 }
 
-/// Mean place of the balls over the stances of a group, m.
-Eigen::Vector2d place_of(const SupportedMotion& e, const Group& group) {
+/// Where the ball of the foot stands, m.
+Eigen::Vector2d place_of(const SupportedMotion& e, const Stance& stance) {
+  return e.place((stance.first + stance.last) / 2, stance.points[2]).head<2>();
+}
+
+Eigen::Vector2d mean_place_of(const SupportedMotion& e, const Group& group) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const Stance& stance : group)
-    sum += e.place((stance.first + stance.last) / 2, stance.points[2]).head<2>();
+  for (const Stance& stance : group) sum += place_of(e, stance);
   return sum / static_cast<double>(group.size());
 }
 
@@ -206,7 +209,7 @@ bool drifts(const SupportedMotion& e, const std::vector<Stance>& all, const Grou
   });
   return std::any_of(all.begin(), all.end(), [&](const Stance& other) {
     return other.points == longest.points && other.height < longest.height - kSameHeight &&
-           (place_of(e, {other}) - place_of(e, {longest})).norm() < kSamePlace;
+           (place_of(e, other) - place_of(e, longest)).norm() < kSamePlace;
   });
 }
 
@@ -359,7 +362,7 @@ void find_steps(const SupportedMotion& e, const std::vector<Stance>& all, FoundS
     if (missing < kMissing || remains > std::max(kExplained, kRemains * missing) || load < kCarries) continue;
     const auto again = std::find_if(accepted.begin(), accepted.end(), [&](const Group& other) {
       return std::abs(group_height(other) - group_height(group)) < kSameHeight &&
-             (place_of(e, other) - place_of(e, group)).norm() < kSameStep;
+             (mean_place_of(e, other) - mean_place_of(e, group)).norm() < kSameStep;
     });
     if (again != accepted.end()) {
       again->insert(again->end(), group.begin(), group.end());

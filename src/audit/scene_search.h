@@ -5,8 +5,9 @@
 /// floor forces inside friction cones at the points near the ground can give. The size of the rest counts
 /// 1 N·m as much as 1 N and is given in parts of the weight W.
 ///
-/// *Steps.* A foot stands if it is slow for at least 0.13 s. Feet that stand one after the other at nearly
-/// the same height, more than 9 cm over the lowest height at which a foot stands, are one candidate. It is a
+/// *Steps.* A foot stands if it is slow and level for at least 0.13 s. Feet that stand one after the other at
+/// nearly the same height, more than 9 cm over the lowest height at which a foot stands, are one candidate,
+/// unless a foot stands lower at another time without having stepped: such an estimate drifts. It is a
 /// plate if it carries more than 0.6 W and the rest falls from more than 0.15 W without it to less than 0.1
 /// W, or less than three tenths, with it. Heights are corrected for an estimate that has one foot higher than
 /// the other, and those of a flight of three or more steps for unequal rises.
@@ -26,7 +27,7 @@
 namespace mimicx::audit {
 
 struct FoundScene {
-  Scene scene;         ///< its floor is where the lowest feet stand
+  Scene scene;         ///< its floor is where the lowest feet stand, or z = 0 of a clip that is `on_floor`
   double floor = 0.0;  ///< height of that floor in the motion's world, m
   /// One per plate: "a seat of 0.43 m under the pelvis, frames 0 to 40: 0.94 of the weight".
   std::vector<std::string> words;

@@ -73,8 +73,12 @@ std::string find_plates_again(motion::Clip& fitted) {
   const audit::FoundScene again = audit::find_scene(fitted);
   if (again.scene.flat()) return "scene: not found again in the fitted motion: it stays where it was";
   fitted.scene = again.scene;
-  std::string note = "scene in the fitted motion: ";
-  for (const std::string& line : again.words) note += (line == again.words.front() ? "" : "; ") + line;
+  std::string note = "scene in the fitted motion";
+  const char* separator = ": ";
+  for (const std::string& line : again.words) {
+    note += separator + line;
+    separator = "; ";
+  }
   return note;
 }
 
