@@ -78,19 +78,16 @@ static void hash_block(uint32_t *hash, const Byte *block) {
     for (int i = 0; i < 64; i++) {
         uint32_t first = h + (rotr(e, 6) ^ rotr(e, 11) ^ rotr(e, 25)) + ((e & f) ^ (~e & g)) + ROOTS[i] + w[i];
         uint32_t second = (rotr(a, 2) ^ rotr(a, 13) ^ rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
-        h = g; g = f; f = e; e = d + first;
-        d = c; c = b; b = a; a = first + second;
+        h = g; g = f; f = e; e = d + first; d = c; c = b; b = a; a = first + second;
     }
-    const uint32_t change[8] = {a, b, c, d, e, f, g, h};
-    for (int i = 0; i < 8; i++) hash[i] += change[i];
+    hash[0] += a; hash[1] += b; hash[2] += c; hash[3] += d; hash[4] += e; hash[5] += f; hash[6] += g; hash[7] += h;
 }
 /* Says whether the bytes have the expected SHA-256. */
 static int hash_is(const Byte *bytes, size_t size, const Byte *expected) {
     uint32_t hash[8] = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
     Byte tail[128] = {0};
     size_t rest = size % 64, tail_size = rest < 56 ? 64 : 128;
-    memcpy(tail, bytes + size - rest, rest);
-    tail[rest] = 0x80;
+    memcpy(tail, bytes + size - rest, rest); tail[rest] = 0x80;
     for (size_t i = 0; i < 8; i++) tail[tail_size - 1 - i] = (Byte)((uint64_t)size * 8 >> (8 * i));
     for (size_t i = 0; i < size / 64; i++) hash_block(hash, bytes + 64 * i);
     for (size_t i = 0; i < tail_size; i += 64) hash_block(hash, tail + i);
@@ -101,7 +98,7 @@ static int hash_is(const Byte *bytes, size_t size, const Byte *expected) {
 
 /* ---- The numbers of a file: section "Format". These structures are doubles in the order of its tables. ---- */
 typedef struct { Vec from, to; double radius; } Capsule;
-typedef struct { Vec offset; double mass, along, across, kp, kd, armature, bound; Capsule capsule; } Body;
+typedef struct { Vec offset, centre; double mass, along, across, kp, kd, armature, bound; Capsule capsule; } Body;
 typedef struct { double body; Vec centre; double radius; } Point;
 typedef struct { double constants[11], beta[SHAPES], claims[4]; Body bodies[BODIES]; Point points[POINTS]; } Header;
 typedef struct { double x, y, yaw, half_first, half_second, height, k, c; } Plate;
@@ -125,7 +122,7 @@ typedef struct {
 
 /* "A broken file": says what is wrong, or NULL. */
 static const char *open_file(Check *check, const Byte *bytes, size_t size) {
-    if (size < PLATES_START || memcmp(bytes, "MIMICERT\4\0\0\0", 12) != 0) return "not a certificate of version 4";
+    if (size < PLATES_START || memcmp(bytes, "MIMICERT\5\0\0\0", 12) != 0) return "not a certificate of version 5";
     uint64_t frame_steps = integer_at(bytes + 12, 4), steps = integer_at(bytes + 16, 8);
     uint64_t plates = integer_at(bytes + 24, 8), start = PLATES_START + plates * sizeof(Plate);
     if (steps < 1 || steps > 1 << 24 || plates > MOST_PLATES) return "no or too many steps, or too many plates";
@@ -194,7 +191,7 @@ static void set_skeleton(Body *bodies, const double *beta) {
 static Vec axis_of(Capsule c) { return minus(c.to, c.from); }
 static Vec on_axis(Capsule c, double share) { return plus(c.from, times(axis_of(c), share)); }
 static double volume(Capsule c) { return c.radius * c.radius * (length(axis_of(c)) + 4 * c.radius / 3); }
-/* The bodies of a shape: "Mass", "Inertia" and "Joints". */
+/* The bodies of a shape: "Mass", "Centre of mass", "Inertia" and "Joints". */
 static void build_bodies(Body *bodies, const double *beta) {
     Body mean[BODIES];
     double whole = 0;
@@ -207,6 +204,7 @@ static void build_bodies(Body *bodies, const double *beta) {
         double cylinder = body->mass * h / (h + 4 * r / 3), balls = body->mass - cylinder;
         body->along = (cylinder / 2 + 2 * balls / 5) * r * r;
         body->across = cylinder * (h * h / 12 + r * r / 4) + balls * (2 * r * r / 5 + h * h / 4 + 3 * h * r / 8);
+        body->centre = on_axis(body->capsule, .5);
         whole += body->mass;
     }
     for (int i = 0; i < BODIES; i++) {
@@ -214,6 +212,12 @@ static void build_bodies(Body *bodies, const double *beta) {
         bodies[i].kd = (bodies[i].kp = row->kp * whole / 70) / 10;
         bodies[i].armature = row->armature;
         bodies[i].bound = row->bound * whole / 70;
+        if (row->part == TORSO) bodies[i].centre.z = row->centre * scales_of(beta).size;
+        if (row->along == 0) continue;
+        Body *limb = &bodies[PARENT[i]];
+        limb->centre = times(bodies[i].offset, row->centre);
+        limb->across = limb->mass * dot(bodies[i].offset, bodies[i].offset) * pow(row->across, 2);
+        limb->along = limb->mass * dot(bodies[i].offset, bodies[i].offset) * pow(row->along, 2);
     }
 }
 /* "Contact points": of the left foot, its instep and the pelvis, their mirror images, and spheres on the axes. */
@@ -438,7 +442,7 @@ static void add_self_contact(Motion *one, Motion *two) {
 /* "Newton, Euler": the joint carries what a body needs for its motion, in spite of gravity. The inertia times a is
  * across a + (along - across) (u . a) u, with u of length 1 along the capsule's axis. */
 static void add_inertia(const Body *body, Motion *motion) {
-    Motion centre = point_at(motion, on_axis(motion->capsule, .5));
+    Motion centre = point_at(motion, in_world(motion, body->centre));
     Vec u = times(axis_of(motion->capsule), 1 / length(axis_of(motion->capsule)));
     Vec along = plus(times(u, dot(u, motion->spin_rate)), times(cross(motion->spin, u), dot(u, motion->spin)));
     Vec moment = plus(times(motion->spin_rate, body->across), times(along, body->along - body->across));
@@ -471,13 +475,12 @@ static void check_controller(Check *check, const Step *step, int i) {
 /* Rules 14 to 18, from the outer bodies inwards. The pelvis has no joint: nothing may be left there. */
 static void check_mechanics(Check *check, const Step *step, Motion *motions) {
     for (int i = BODIES - 1; i > 0; i--) {
-        const Body *body = &check->header.bodies[i];
         Motion *motion = &motions[i];
         Vec hinge = ROWS[LEFT_OF[i]].hinge;
-        add_inertia(body, motion);
+        add_inertia(&check->header.bodies[i], motion);
         check_controller(check, step, i);
         Vec torque = plus(step->torque[i - 1], range_torque(i, step->now.turn[i], step->spin_after[i]));
-        Vec law = minus(torque, times(spin_rate(step, i), body->armature));
+        Vec law = minus(torque, times(spin_rate(step, i), check->header.bodies[i].armature));
         Vec difference = minus(rotated(inverse(motion->turn), motion->moment), law);
         excess(check, JOINT, length(hinge) == 0 ? length(difference) : fabs(dot(difference, hinge)));
         carry(&motions[PARENT[i]], motion->place, motion->force, motion->moment);
@@ -519,8 +522,7 @@ int verify_bytes(const Byte *file, size_t size, const Byte *zip, size_t zip_size
     Check check = {.rules = rules};
     for (int i = 0; i < RULES; i++)
         rules[i] = (Rule){RULE_TABLE[i].name, RULE_TABLE[i].unit, RULE_TABLE[i].tolerance, 0, 0, 0, -1};
-    *wrong = open_file(&check, file, size);
-    if (*wrong != NULL) return BROKEN;
+    if ((*wrong = open_file(&check, file, size)) != NULL) return BROKEN;
     check_header(&check);
     if (zip != NULL) check_motion_file(&check, zip, zip_size);
     check_steps(&check);

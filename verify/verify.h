@@ -1,12 +1,11 @@
 /* Checks one certificate in memory. */
-#ifndef MIMICX_VERIFY_H
-#define MIMICX_VERIFY_H
+#pragma once
 #include <stddef.h>
 
 /* Rules, in the order of docs/certificate.md. */
 enum { MOTION_FILE, FRAMES, CONSTANT, SHAPE, FINITE, UNIT, AXIS, POSITION, ROTATION, VELOCITY, SPIN, MEAN_VELOCITY,
-       MEAN_SPIN, FORCE, MOMENT, JOINT, LAW, BOUND, AIR, NORMAL, SIDEWAYS, CONE, PULL, ABSENT, DEPTH, CLAIM, SCENE,
-       RULES };
+    MEAN_SPIN, FORCE, MOMENT, JOINT, LAW, BOUND, AIR, NORMAL, SIDEWAYS, CONE, PULL, ABSENT, DEPTH, CLAIM, SCENE,
+    RULES };
 
 enum { ACCEPTED, REJECTED, BROKEN };
 
@@ -17,5 +16,3 @@ typedef struct { const char *name, *unit; double tolerance, claimed, found, diff
  * file. `motion` is the motion file, or NULL: then that rule does not apply. */
 int verify_bytes(const unsigned char *file, size_t size, const unsigned char *motion, size_t motion_size, Rule *rules,
                  const char **wrong);
-
-#endif

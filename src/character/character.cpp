@@ -95,16 +95,18 @@ double ankle_height(const Character& c, int side) {
 }
 
 /// A capsule across the trunk, symmetric to the middle. Buttocks and shoulder blades reach farther back than
-/// the loins: on them a body lies on its back.
+/// the loins: on them a body lies on its back. Centres of mass are on the line from the middle of the hips to
+/// that of the shoulders, where de Leva has them (standard_body.h).
 struct TrunkCapsule {
   int body;
   double half_width, y, z, radius;  ///< m
+  double centre_z;                  ///< of mass, m; its y is that of the capsule
 };
 constexpr TrunkCapsule kTrunkCapsules[] = {
-    {kPelvis, 0.062, -0.02, -0.018, 0.105},
-    {kSpine1, 0.050, 0.04, 0.022, 0.105},
-    {kSpine2, 0.055, 0.02, 0.012, 0.105},
-    {kSpine3, 0.070, 0.09, -0.015, 0.110},
+    {kPelvis, 0.062, -0.02, -0.018, 0.105, -0.011},
+    {kSpine1, 0.050, 0.04, 0.022, 0.105, 0.004},
+    {kSpine2, 0.055, 0.02, 0.012, 0.105, -0.005},
+    {kSpine3, 0.070, 0.09, -0.015, 0.110, -0.040},
 };
 
 /// A capsule along a bone of the middle or the left side.
@@ -175,6 +177,40 @@ Matrix3d capsule_inertia(const Capsule& c, double mass) {
       m_c * (h * h / 12.0 + r * r / 4.0) + m_b * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);
   const Vector3d axis = h > 1e-9 ? Vector3d((c.b_B - c.a_B) / h) : Vector3d(Vector3d::UnitX());
   return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+}
+
+/// A long segment of the left side: its centre of mass on its bone and its radii of gyration across and along
+/// it, in lengths of the bone.
+struct LongSegment {
+  int body, child;
+  double centre, across, along;
+};
+/// Means of both sexes, and of the two axes across, of de Leva (1996), table 4 (standard_body.h).
+constexpr LongSegment kLongSegments[] = {
+    {kLeftHip, kLeftKnee, 0.385, 0.348, 0.156},
+    {kLeftKnee, kLeftAnkle, 0.444, 0.260, 0.098},
+    {kLeftShoulder, kLeftElbow, 0.576, 0.273, 0.153},
+    {kLeftElbow, kLeftWrist, 0.457, 0.265, 0.108},
+};
+
+/// Centres of mass and inertia of the bodies: of solid capsules, but for the trunk's centres and long
+/// segments.
+void set_inertia(Character& c, const Scales& s) {
+  for (int i = 0; i < kBodies; ++i) {
+    c.com_B[i] = 0.5 * (c.capsule[i].a_B + c.capsule[i].b_B);
+    c.inertia_B[i] = capsule_inertia(c.capsule[i], c.mass[i]);
+  }
+  for (const TrunkCapsule& row : kTrunkCapsules)
+    c.com_B[row.body] = s.size * Vector3d(0.0, row.y, row.centre_z);
+  for (const LongSegment& row : kLongSegments)
+    for (int right : {0, 1}) {
+      const int i = row.body + right;
+      const Vector3d bone = c.joint_offset[row.child + right], axis = bone.normalized();
+      const double m = c.mass[i] * bone.squaredNorm();
+      const double across = m * row.across * row.across, along = m * row.along * row.along;
+      c.com_B[i] = row.centre * bone;
+      c.inertia_B[i] = across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+    }
 }
 
 /// Heel and toe are points. The ball is a sphere around the joint's axis, so that it stays on the floor
@@ -272,9 +308,8 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
     c.capsule[i] = capsule_of(c, scales, i);
     const double growth = capsule_volume(c.capsule[i]) / capsule_volume(capsule_of(standard, Scales{}, i));
     c.mass[i] = kStandardMass * mass_share(i) * growth;
-    c.com_B[i] = 0.5 * (c.capsule[i].a_B + c.capsule[i].b_B);
-    c.inertia_B[i] = capsule_inertia(c.capsule[i], c.mass[i]);
   }
+  set_inertia(c, scales);
   add_foot_points(c, scales, 1);
   add_foot_points(c, scales, -1);
   add_instep(c, scales, 1);

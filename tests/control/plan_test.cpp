@@ -106,7 +106,7 @@ TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
 }
 
 /// A reference that stands, is lifted by `kHeight` and put down within 0.8 s: a jump without a crouch.
-constexpr double kHeight = 0.35;
+constexpr double kHeight = 0.45;
 System lifted() {
   constexpr int kFirst = 10, kFrames = 24;
   System system = system_of(synthetic_reference("stand", 501, 40));

@@ -125,7 +125,7 @@ Momentum momentum(const Character& c, const Snapshot& s) {
 /// Rate of change of momentum at constant velocity coordinates: differences of positions along the
 /// velocities.
 Momentum drift(const Character& c, const Snapshot& s) {
-  constexpr double h = 1e-5;
+  constexpr double h = 3e-6;
   const auto moved = [&](double t) {
     Snapshot m = s;
     m.p_root += t * s.v_root;

@@ -90,8 +90,10 @@ TEST(ControlInterval, WatchingAndRecordingChangeNoBit) {
 
 TEST(ControlInterval, ReportsALaneThatFailsDuringTheInterval) {
   const auto s = std::make_unique<Interval<P>>(4);
-  State<double> resting = lane_of(s->state, 0);
+  State<double> resting = lane_of(s->state, 0);  // in the air, in a pose that no range bends: it falls freely
   Target<double> aim{};
+  resting.p_root = {0.0, 0.0, 50.0};
+  resting.q.fill({1.0, 0.0, 0.0, 0.0});
   resting.v_root = {0.0, 0.0, 0.0};
   resting.omega.fill({0.0, 0.0, 0.0});
   aim.q = resting.q;

@@ -253,7 +253,8 @@ double excess(const JointParameters& j, int body, const Quaterniond& q) {
 }
 
 struct Excess {
-  double largest, held;  ///< while the limb slams into the range; at the end, pressed against it
+  double largest;  ///< while the limb slams into the range
+  double held;  ///< pressed against it: mean of the last half second, in which some joints hunt by 0.01 rad
 };
 
 /// Drives one joint from the centre of its range about `axis` with its full torque.
@@ -272,10 +273,12 @@ Excess drive(const Character& character, int body, const Vector3d& axis, double 
   s.target_q[i] = s.q[i] * exp_map(3.0 * axis);
   Simulation<double> simulation(character, config, s);
   Excess result{0, 0};
-  for (int k = 0; k < static_cast<int>(rate); ++k) {
+  const int steps = static_cast<int>(rate);
+  for (int k = 0; k < steps; ++k) {
     simulation.advance();
-    result.held = excess(character.joint[i], body, lane_of(simulation.state.q[i], 0));
-    result.largest = std::max(result.largest, result.held);
+    const double now = excess(character.joint[i], body, lane_of(simulation.state.q[i], 0));
+    result.largest = std::max(result.largest, now);
+    if (2 * k >= steps) result.held += 2.0 * now / steps;
   }
   return result;
 }

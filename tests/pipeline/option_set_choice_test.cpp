@@ -51,7 +51,7 @@ TEST_F(OptionSetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {
 }
 
 TEST_F(OptionSetChoice, ArrangementIsThatOfTheSetAlone) {
-  const Set follows = set_of(0.02F);
+  const Set follows = set_of(0.01F);
   const ChosenSet chosen = choose({encoded_set_of(1.5F), follows});
   const options::ArrangedClip alone = options::arrange(clip, {}, *follows, config);
   EXPECT_EQ(chosen.set, 1);

@@ -269,12 +269,12 @@ TEST_F(PlanMotions, FailedPlanSaysWhereAndWhyInManifestFeasibilityAndReportAndOt
   EXPECT_NE(page.find("\"tips\""), std::string::npos);
 }
 
-// Its first half second needs half of its weight from outside. Plans without assistance fail there.
+// A run without its first steps: the body is thrown in full speed. Plans without assistance fail there.
 TEST_F(PlanMotions, FollowsAnInfeasibleReferenceByAssistiveForces) {
-  const auto dance = std::filesystem::path(MIMICX_SHARED_DIR) / "motions/deepmimic/humanoid3d_dance_a.txt";
-  if (!std::filesystem::exists(dance)) GTEST_SKIP() << "no real motions beside the source tree";
+  const auto run_clip = std::filesystem::path(MIMICX_SHARED_DIR) / "motions/deepmimic/humanoid3d_run.txt";
+  if (!std::filesystem::exists(run_clip)) GTEST_SKIP() << "no real motions beside the source tree";
   PlanMotionsConfig config = plan_configuration();
-  config.run.inputs = {dance.string()};
+  config.run.inputs = {run_clip.string()};
   config.run.out = out("run");
   config.run.threads = 2;
   run(config);

@@ -22,8 +22,8 @@ extern "C" {
 namespace mimicx::audit {
 namespace {
 
-constexpr std::size_t kHead = 64, kPlates = 4736, kPlate = 64, kRecord = 550, kState = 160, kNext = 69,
-                      kBody = 17;
+constexpr std::size_t kHead = 64, kPlates = 5264, kPlate = 64, kRecord = 550, kState = 160, kNext = 69,
+                      kBody = 20;
 constexpr std::size_t kForces = kState + kNext + 147 + 63;
 constexpr std::size_t kSteps = 24, kStride = 8;
 
@@ -335,7 +335,7 @@ TEST(Verify, RefusesAnAdversarysMotions) {
 
   std::string file = honest().file;  // a lighter body under the same shape
   for (std::size_t i = 0; i < kBodies; ++i) {
-    const std::size_t at = kHead + 8 * (25 + kBody * i + 3);
+    const std::size_t at = kHead + 8 * (25 + kBody * i + 6);
     set_double(file, at, 0.5 * double_at(file, at));
   }
   rehash(file);
@@ -478,7 +478,7 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
       case 0:
         file.resize(static_cast<std::size_t>(random.uniform() * (size - 1)));
         wanted =
-            file.size() < kPlates ? "not a certificate of version 4" : "size differs from that of its steps";
+            file.size() < kPlates ? "not a certificate of version 5" : "size differs from that of its steps";
         break;
       case 1:
         file[kHead + static_cast<std::size_t>(random.uniform() * (size - kHead))] ^= 1 << (k / 8 % 8);
@@ -486,11 +486,11 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
         break;
       case 2:
         file[static_cast<std::size_t>(random.uniform() * 8)] ^= 4;
-        wanted = "not a certificate of version 4";
+        wanted = "not a certificate of version 5";
         break;
       case 3:
         set_integer(file, 8, 5 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "not a certificate of version 4";
+        wanted = "not a certificate of version 5";
         break;
       case 4:
         file += std::string(1 + static_cast<std::size_t>(random.uniform() * 100), 'x');

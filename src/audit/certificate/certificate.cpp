@@ -22,13 +22,13 @@ namespace mimicx::audit {
 namespace {
 
 constexpr std::string_view kMagic = "MIMICERT";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kFixed = 64, kHash = 32;
 constexpr double kEdge = 1e-6;  ///< of touching, within which float32 decides, m
 constexpr std::size_t kPoints = 37, kPlateNumbers = 8;
 constexpr std::size_t kState = 2 * 3 + 7 * kBodies, kNext = 3 + 3 * kBodies, kTargets = 7 * kJoints;
 constexpr std::size_t kRecord = kState + kNext + kTargets + 3 * kJoints + 3 * kPoints;
-constexpr std::size_t kHead = 11 + kBetas + 4 + 17 * kBodies + 5 * kPoints;
+constexpr std::size_t kHead = 11 + kBetas + 4 + 20 * kBodies + 5 * kPoints;
 
 void append_integer(std::string& bytes, std::uint64_t value, int size) {
   for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i);
@@ -191,6 +191,7 @@ void add_body(const Character& c, Numbers& out) {
     const Vector3d axis = (c.capsule[i].b_B - c.capsule[i].a_B).normalized();
     const double along = axis.dot(c.inertia_B[i] * axis), across = 0.5 * (c.inertia_B[i].trace() - along);
     out.add(c.joint_offset[i]);
+    out.add(c.com_B[i]);
     for (const double v : {c.mass[i], along, across, j.kp, j.kd, j.armature, j.torque_limit}) out.add(v);
     out.add(c.capsule[i].a_B);
     out.add(c.capsule[i].b_B);
@@ -293,7 +294,7 @@ std::string certify_file(const std::filesystem::path& path) {
 CertificateReplay replay_certificate(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const auto refuse = [&](const std::string& found) {
-    throw DataError(path.string(), "", "a certificate of version 4", found);
+    throw DataError(path.string(), "", "a certificate of version 5", found);
   };
   if (bytes.size() < kFixed + 8 * (kHead + kState) + kHash || !bytes.starts_with(kMagic))
     refuse("another file");

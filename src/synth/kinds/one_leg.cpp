@@ -43,7 +43,7 @@ RaisedFoot place_of(Direction direction, double leg, double amount, Random& rand
       return {ahead * leg, 0.0, lift * leg, random.uniform(-18.0, 15.0) * kDegree};
     }
     case kSide: {
-      const double out = random.uniform(0.15, 0.40) * amount, lift = random.uniform(0.08, 0.28) * amount;
+      const double out = random.uniform(0.15, 0.40) * amount, lift = random.uniform(0.08, 0.26) * amount;
       return {random.uniform(-0.03, 0.08) * leg, out * leg, lift * leg,
               random.uniform(-10.0, 10.0) * kDegree};
     }
