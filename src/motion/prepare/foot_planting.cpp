@@ -20,6 +20,7 @@ constexpr double kSigmaSide = 0.002;    ///< m, of a point in the side of a box
 constexpr double kResting = 0.01;  ///< m from the floor or a side: so far, what came into it is held on it
 constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
+constexpr double kLanding = 0.034, kSwinging = 0.1;  ///< s from a stance of the foot: no clearance, all of it
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
 constexpr double kSigmaPlace = 0.02;           ///< m, of the pelvis
 constexpr double kSigmaPlaceBend = 0.00025;    ///< m, second difference at 30 frames per second
@@ -203,12 +204,29 @@ void add_ranges(const Character& character, const ReferenceFrame& corrected, int
   }
 }
 
+/// Time from every frame to the nearest one in which a point of the foot stands, s. [frames][left, right]
+PerFrame<Array<double, 2>> times_to_stance(const PerFrame<Stance>& stance, double fps) {
+  const int frames = stance.count();
+  PerFrame<Array<double, 2>> out(frames, {1e9, 1e9});
+  for (int t = 0; t < frames; ++t)
+    for (int side = 0; side < 2; ++side) {
+      if (t > 0) out[t][side] = out[t - 1][side] + 1.0 / fps;
+      for (int k = 0; k < kFootPoints / 2; ++k)
+        if (stance[t][side * kFootPoints / 2 + k]) out[t][side] = 0.0;
+    }
+  for (int t = frames - 2; t >= 0; --t)
+    for (int side = 0; side < 2; ++side) out[t][side] = std::min(out[t][side], out[t + 1][side] + 1.0 / fps);
+  return out;
+}
+
 /// Heights that the points of the soles keep at least, m: 0 of standing points; a swinging one keeps a
-/// clearance in proportion to its speed over the floor, up to kClearance.
+/// clearance in proportion to its speed over the floor, up to kClearance. A foot that is about to land or has
+/// just left keeps none: it would land a frame late and leave a frame early.
 PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, const Reference& reference) {
   const int frames = reference.size();
   PerFrame<SolePositions> p;
   for (const BodyPoses& frame : reference.poses) p.push_back(sole_positions(reference.character, frame));
+  const auto away = times_to_stance(stance, reference.fps);
   PerFrame<Array<double, kFootPoints>> out(frames);
   for (int t = 0; t < frames; ++t)
     for (int k = 0; k < kFootPoints; ++k) {
@@ -216,7 +234,8 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
       double path = 0.0;
       for (int i = first; i < last; ++i) path += (p[i + 1][k] - p[i][k]).head<2>().norm();
       const double speed = path * reference.fps / std::max(last - first, 1);
-      out[t][k] = stance[t][k] ? 0.0 : kClearance * std::min(1.0, speed / kClearanceSpeed);
+      const double swings = (away[t][2 * k / kFootPoints] - kLanding) / (kSwinging - kLanding);
+      out[t][k] = kClearance * std::min(1.0, speed / kClearanceSpeed) * std::clamp(swings, 0.0, 1.0);
     }
   return out;
 }
