@@ -13,8 +13,9 @@ namespace {
 constexpr double kSigmaOverlap = 0.003;  ///< m
 constexpr double kSigmaTurn = 0.5;       ///< rad
 constexpr double kSigmaBend = 0.02;      ///< rad, second difference at 30 frames per second
-constexpr int kIterations = 12;
+constexpr int kIterations = 40;
 constexpr double kLargestStep = 0.2;         ///< rad, of one unknown in one iteration
+constexpr int kHalvings = 8;                 ///< of a step that does not reduce the sum of squares
 constexpr double kSmallestTurn = 1e-4;       ///< rad: below, it has converged
 constexpr double kOverlapGrows = 1.0 / 3.0;  ///< s
 constexpr double kTouching = 1e-6;           ///< m: axes that cross have no direction apart
@@ -119,10 +120,26 @@ BodyPoses poses_with(const Reference& reference, int t, const Turns& c) {
   return forward_kinematics(reference.character, frame.p_root, turned(frame.q, c));
 }
 
+/// What the turns shall make small: their own size, their second differences and the excess of overlaps.
+double sum_of_squares(const Reference& reference, const PerFrame<Turns>& c, double bend) {
+  double sum = 0.0;
+  for (int t = 0; t < reference.size(); ++t) {
+    sum += c[t].squaredNorm() / (kSigmaTurn * kSigmaTurn);
+    if (t + 2 < reference.size()) sum += (c[t] - 2.0 * c[t + 1] + c[t + 2]).squaredNorm() / (bend * bend);
+    for (const Overlap& overlap : find_overlaps(reference.character, poses_with(reference, t, c[t]),
+                                                allowed_overlap(t, reference.fps)))
+      sum += overlap.excess * overlap.excess / (kSigmaOverlap * kSigmaOverlap);
+  }
+  return sum;
+}
+
+/// Gauss–Newton. An overlap counts while it is there, so a whole step may jump far out of it, and the next
+/// one back into it: steps are halved until the sum of squares falls.
 PerFrame<Turns> solve_turns(const Reference& reference) {
   const int frames = reference.size();
   const double bend = kSigmaBend * 900.0 / (reference.fps * reference.fps);
   PerFrame<Turns> c(reference.frames.size(), Turns::Zero());
+  double sum = sum_of_squares(reference, c, bend);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Equations equations(frames);
     for (int t = 0; t < frames; ++t) {
@@ -133,10 +150,15 @@ PerFrame<Turns> solve_turns(const Reference& reference) {
         equations.add(t, overlap);
     }
     const Eigen::VectorXd step = equations.solve();
-    const double largest = step.cwiseAbs().maxCoeff();
-    const double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestTurn));
-    for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kArmUnknowns>(t * kArmUnknowns);
-    if (largest < kSmallestTurn) break;
+    const double largest = step.cwiseAbs().maxCoeff(), before = sum;
+    double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestTurn));
+    for (int halving = 0; halving <= kHalvings && sum >= before; ++halving, scale *= 0.5) {
+      PerFrame<Turns> next = c;
+      for (int t = 0; t < frames; ++t) next[t] += scale * step.segment<kArmUnknowns>(t * kArmUnknowns);
+      const double reached = sum_of_squares(reference, next, bend);
+      if (reached < before) c = next, sum = reached;
+    }
+    if (largest < kSmallestTurn || sum >= before) break;
   }
   return c;
 }

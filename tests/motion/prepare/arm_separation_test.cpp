@@ -62,6 +62,17 @@ TEST(Separation, MovesTheArmHardlyFartherThanItsDepth) {
   EXPECT_LT(moved, 3.0 * (depth - kAllowedOverlap));
 }
 
+// As soon as an overlap is gone nothing holds the arm outside: whole steps would jump in and out of it for
+// ever.
+TEST(Separation, EndsOutsideFromEveryDepth) {
+  for (double turn = 0.2; turn < 0.47; turn += 0.02) {  // farther in, the arm is past the middle of the trunk
+    Reference reference = prepared(with_arm_inside(standing(), turn), false);
+    const double depth = deepest(reference), moved = separate_arms(reference);
+    EXPECT_LT(deepest(reference), kAllowedOverlap + 0.01) << turn;
+    EXPECT_LT(moved, 3.5 * std::max(depth - kAllowedOverlap, 0.01)) << turn;
+  }
+}
+
 TEST(Separation, ReferenceWithoutOverlapStaysByteIdentical) {
   const Clip clip = standing();
   const Reference without = prepared(clip, false), with = prepared(clip, true);
