@@ -40,7 +40,7 @@ void feed(const std::string& bytes) {
       value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
     return value;
   };
-  const std::uint64_t length = 4736 + 64 * integer_at(24) + 4400 * integer_at(16) + 1280 + 32;
+  const std::uint64_t length = 5264 + 64 * integer_at(24) + 4400 * integer_at(16) + 1280 + 32;
   if (length >= 64 && length <= bytes.size()) {
     file = bytes.substr(0, length);
     npz = bytes.substr(length);
