@@ -114,6 +114,35 @@ TEST(FootPlanting, PutsHoveringAndSlidingFeetOnOnePlace) {
   }
 }
 
+// Clearance is for feet that swing. One that keeps it up to its stance lands a frame late.
+TEST(FootPlanting, FeetLandAndLeaveWhenTheyDid) {
+  for (const char* kind : {"walk", "jog"}) {
+    const Reference before = exact(kind);
+    const PerFrame<Stance> stance = stance_of(before);
+    Reference reference = before;
+    move_pelvis(reference, [](int) { return Vector3d(0, 0, 0.008); });
+    plant_feet(stance, reference);
+    const auto lowest = [](const Reference& r, int t, int side) {
+      double z = 1e9;
+      for (int k = 0; k < kFootPoints / 2; ++k)
+        z = std::min(z, sole_positions(r.character, r.poses[t])[side * kFootPoints / 2 + k].z());
+      return z;
+    };
+    const auto stands = [&](int t, int side) {
+      const auto* first = stance[t].begin() + side * kFootPoints / 2;
+      return std::find(first, first + kFootPoints / 2, true) != first + kFootPoints / 2;
+    };
+    int changes = 0;
+    for (int side : {0, 1})
+      for (int t = 1; t + 1 < before.size(); ++t) {
+        if (stands(t, side) || stands(t - 1, side) == stands(t + 1, side)) continue;
+        ++changes;
+        EXPECT_LT(lowest(reference, t, side), lowest(before, t, side) + 0.006) << kind << " " << t;
+      }
+    EXPECT_GT(changes, 8) << kind;
+  }
+}
+
 TEST(FootPlanting, TrunkArmsAndHeadKeepTheirRotations) {
   Reference reference = exact("walk");
   const Reference before = reference;
