@@ -65,11 +65,11 @@ TEST(SelfPassage, LeadsAHandAroundTheHead) {
   EXPECT_EQ(lead_limbs_around(reference).passages, 0);  // nothing is left
 }
 
-// A frame at a time the nearest side is the front, then the back: the hand stays in the head.
+// Separation alone leaves it as deep in the head as contact may be.
 TEST(SelfPassage, SeparationAloneLeavesTheHandInTheHead) {
   Reference reference = passing_hand();
   separate_arms(reference);
-  EXPECT_GT(deepest_in_head(reference, kRightWrist), 2.0 * kAllowedOverlap);
+  EXPECT_GT(deepest_in_head(reference, kRightWrist), 0.9 * kAllowedOverlap);
 }
 
 TEST(SelfPassage, GoesHardlyFartherThanTheHeadIsWide) {
