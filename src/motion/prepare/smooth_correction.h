@@ -39,6 +39,7 @@ struct CorrectionSigmas {
   double bend;                         ///< σ_b at 30 frames per second
   double largest_step, smallest_step;  ///< of an unknown in an iteration: bound, and where it has converged
   int iterations;
+  double least_share = 0.25;  ///< of a step: where it does not lower the cost, either, the search ends
 };
 
 /// The normal equations of one iteration.
@@ -110,13 +111,12 @@ struct SmoothCorrection {
   double cost = 0;
 };
 
-/// A step that does not lower the cost is halved; where a quarter does not either, the search ends.
+/// A step that does not lower the cost is halved.
 /// @param add_residuals  (c, equations): adds the residuals of a state to its equations
 template <int N, class AddResiduals>
 SmoothCorrection<N> smooth_correction(const Stretch& stretch, int frames, double fps,
                                       const CorrectionSigmas& sigmas, const AddResiduals& add_residuals) {
   using Unknowns = Eigen::Matrix<double, N, 1>;
-  constexpr double kLeastShare = 0.25;
   const auto equations_at = [&](const List<Unknowns>& c) {
     CorrectionEquations<N> equations(stretch, frames, fps, sigmas, c);
     add_residuals(c, equations);
@@ -129,7 +129,7 @@ SmoothCorrection<N> smooth_correction(const Stretch& stretch, int frames, double
     const double largest = step.cwiseAbs().maxCoeff();
     if (largest < sigmas.smallest_step) break;
     double share = std::min(1.0, sigmas.largest_step / largest);
-    const double least = kLeastShare * share;
+    const double least = sigmas.least_share * share;
     bool lower = false;
     for (; !lower && share >= least; share *= 0.5) {
       List<Unknowns> c = found.c;
