@@ -167,6 +167,11 @@ double capsule_volume(const Capsule& c) {
   return std::numbers::pi * r * r * (length + 4.0 / 3.0 * r);
 }
 
+/// Inertia of a body that is symmetric about an axis, from its moments along and across it.
+Matrix3d axial_inertia(const Vector3d& axis, double along, double across) {
+  return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+}
+
 /// Inertia of a solid capsule of unit density scaled to `mass`, about its centre.
 Matrix3d capsule_inertia(const Capsule& c, double mass) {
   const double r = c.radius, h = (c.b_B - c.a_B).norm();
@@ -176,7 +181,7 @@ Matrix3d capsule_inertia(const Capsule& c, double mass) {
   const double across =
       m_c * (h * h / 12.0 + r * r / 4.0) + m_b * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);
   const Vector3d axis = h > 1e-9 ? Vector3d((c.b_B - c.a_B) / h) : Vector3d(Vector3d::UnitX());
-  return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+  return axial_inertia(axis, along, across);
 }
 
 /// A long segment of the left side: its centre of mass on its bone and its radii of gyration across and along
@@ -205,11 +210,11 @@ void set_inertia(Character& c, const Scales& s) {
   for (const LongSegment& row : kLongSegments)
     for (int right : {0, 1}) {
       const int i = row.body + right;
-      const Vector3d bone = c.joint_offset[row.child + right], axis = bone.normalized();
+      const Vector3d bone = c.joint_offset[row.child + right];
       const double m = c.mass[i] * bone.squaredNorm();
-      const double across = m * row.across * row.across, along = m * row.along * row.along;
       c.com_B[i] = row.centre * bone;
-      c.inertia_B[i] = across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+      c.inertia_B[i] =
+          axial_inertia(bone.normalized(), m * row.along * row.along, m * row.across * row.across);
     }
 }
 

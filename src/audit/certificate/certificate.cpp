@@ -294,7 +294,7 @@ std::string certify_file(const std::filesystem::path& path) {
 CertificateReplay replay_certificate(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const auto refuse = [&](const std::string& found) {
-    throw DataError(path.string(), "", "a certificate of version 5", found);
+    throw DataError(path.string(), "", "a certificate of version " + std::to_string(kVersion), found);
   };
   if (bytes.size() < kFixed + 8 * (kHead + kState) + kHash || !bytes.starts_with(kMagic))
     refuse("another file");

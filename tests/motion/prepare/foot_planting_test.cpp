@@ -123,9 +123,9 @@ TEST(FootPlanting, FeetLandAndLeaveWhenTheyDid) {
     move_pelvis(reference, [](int) { return Vector3d(0, 0, 0.008); });
     plant_feet(stance, reference);
     const auto lowest = [](const Reference& r, int t, int side) {
+      const SolePositions p = sole_positions(r.character, r.poses[t]);
       double z = 1e9;
-      for (int k = 0; k < kFootPoints / 2; ++k)
-        z = std::min(z, sole_positions(r.character, r.poses[t])[side * kFootPoints / 2 + k].z());
+      for (int k = 0; k < kFootPoints / 2; ++k) z = std::min(z, p[side * kFootPoints / 2 + k].z());
       return z;
     };
     const auto stands = [&](int t, int side) {
