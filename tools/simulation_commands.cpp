@@ -156,7 +156,7 @@ void add_arrangement_arguments(Command& command, pipeline::options::ArrangementC
       "cluster");
   command.number("--switch-penalty", arrangement.switch_penalty, {kAnyNumber.least, 0.0},
                  "w_p of Eq. 4, in rewards");
-  command.number("--rescue-reward", arrangement.rescue_reward, {0.0, 1.0},
+  command.number("--rescue-reward", arrangement.rescue.reward, {0.0, 1.0},
                  "dp: an option whose reward falls under this continues from the "
                  "state of the best one");
 }

@@ -112,7 +112,7 @@ pipeline::options::ArrangedClip tell_arrangement(
   std::vector<const pipeline::options::Option*> all;
   for (const pipeline::options::TrainedOption& trained : set.options) all.push_back(&trained.option);
   const pipeline::options::SideBySide beside = pipeline::options::roll_out_side_by_side(
-      pipeline::options::encoded_for(clip, all), tracking, all, config.rescue_reward);
+      pipeline::options::encoded_for(clip, all), tracking, all, config.rescue);
   heading("pipeline/options", "rewards r[t][c] of the options side by side, and the arrangement");
   std::printf("  %zu frames x %zu options\n", beside.rewards.size(), all.size());
   row<double>("rewards at frame 30 [options]", beside.rewards.at(kFrame), all.size());

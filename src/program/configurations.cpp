@@ -78,6 +78,8 @@ std::string meaning_of(const Meanings& meanings, const std::string& name) {
   throw std::logic_error("configurations: " + name + " has no meaning");
 }
 
+constexpr double kFarAway = 1000.0;  ///< m; no body gets there
+
 /// The paper follows motions as they are.
 constexpr run::CorrectionConfig kAsPrinted = {.as_is = true, .unfitted_keypoints = true};
 
@@ -147,6 +149,7 @@ void use_printed_method(AdaptConfig& config) {
   config.training.stall_evaluations = 0;  // the threshold ends the fine-tuning
   config.training.stop_reward = 0.9;      // keypoints leave 0.975 at most, at the median of the estimates
   config.arrangement.selector = pipeline::options::Selector::kDp;
+  config.arrangement.rescue.distance = kFarAway;
   config.arrangement.rescue_frames = 0;
 }
 

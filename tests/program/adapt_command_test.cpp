@@ -305,13 +305,13 @@ TEST_F(Adapt, ResultDoesNotDependOnIgnoredKeypoints) {
 TEST_F(Adapt, RejectsImpossibleArrangementSettings) {
   pretrain_once("options");
   for (const pipeline::options::ArrangementConfig& wrong :
-       {pipeline::options::ArrangementConfig{0.1, 0.1},
-        pipeline::options::ArrangementConfig{std::nan(""), 0.1},
-        pipeline::options::ArrangementConfig{-1.0, -0.1}, pipeline::options::ArrangementConfig{-1.0, 1.1},
-        pipeline::options::ArrangementConfig{-1.0, std::nan("")}}) {
+       {pipeline::options::ArrangementConfig{0.1, {0.1}},
+        pipeline::options::ArrangementConfig{std::nan(""), {0.1}},
+        pipeline::options::ArrangementConfig{-1.0, {-0.1}}, pipeline::options::ArrangementConfig{-1.0, {1.1}},
+        pipeline::options::ArrangementConfig{-1.0, {std::nan("")}}}) {
     AdaptConfig config = adapting("run", "options");
     config.arrangement = wrong;
-    EXPECT_THROW(run(config), std::invalid_argument) << wrong.switch_penalty << ' ' << wrong.rescue_reward;
+    EXPECT_THROW(run(config), std::invalid_argument) << wrong.switch_penalty << ' ' << wrong.rescue.reward;
   }
   AdaptConfig config = adapting("run", "options");
   config.options = {};

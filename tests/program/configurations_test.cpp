@@ -135,7 +135,11 @@ TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
                                            {"sigma_end", 0.11},
                                            {"penalty_weight", 0.002}};
   EXPECT_EQ(settings_changed("pretrain small", "pretrain printed"), printed);
-  printed.insert({{"selector", 0}, {"rescue_frames", 0}, {"stall_evaluations", 0}, {"stop_reward", 0.9}});
+  printed.insert({{"selector", 0},
+                  {"rescue_distance", 1000},
+                  {"rescue_frames", 0},
+                  {"stall_evaluations", 0},
+                  {"stop_reward", 0.9}});
   EXPECT_EQ(settings_changed("adapt", "adapt printed"), printed);
   const NamedValues adapt = manifest_settings(printed_adaptation());
   EXPECT_EQ(value_of(adapt, "keypoints"), 1.0) << "Eq. 3 acts without a fit";

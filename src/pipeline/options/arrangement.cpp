@@ -28,7 +28,7 @@ struct Choice {
 Choice choose_by_programme(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                            const rl::tracking::TrackingConfig& tracking,
                            const std::vector<const Option*>& options, const ArrangementConfig& config) {
-  const SideBySide rolled = roll_out_side_by_side(clip, tracking, options, config.rescue_reward);
+  const SideBySide rolled = roll_out_side_by_side(clip, tracking, options, config.rescue);
   const OptionRewards rewards = charge_rescues(rolled, config.rescue_frames);
   return {select_options(OptionRewards(rewards.begin() + 1, rewards.end()), config.switch_penalty).options,
           rolled.breaks, clip->size() - 1};

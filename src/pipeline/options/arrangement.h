@@ -3,7 +3,7 @@
 /// A selector names the option of every frame:
 ///
 ///   - dp: the options run side by side (option_rewards.h), rescues are charged, and the arrangement of the
-///     largest total reward is taken (selector.h): the paper's;
+///     largest total reward is taken (selector.h): the paper's if rescues are free and by the reward alone;
 ///   - beam: a beam search over real roll-outs (beam_search.h);
 ///   - single: the option of the largest reward when it acts alone over the whole clip;
 ///   - nearest: the option whose cluster's centre is nearest to the motion's features; nothing is simulated.
@@ -17,6 +17,7 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/options/option_rewards.h"
 #include "pipeline/options/option_set.h"
 
 namespace mimicx::pipeline::options {
@@ -26,7 +27,7 @@ enum class Selector { kDp, kBeam, kSingle, kNearest };
 /// The defaults are those of `mimicx adapt`.
 struct ArrangementConfig {
   double switch_penalty = -1.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
-  double rescue_reward = 0.1;    ///< dp: σ; a character of less reward is put into the best one's state
+  RescueBounds rescue;           ///< dp: what puts a character into the best one's state
   Selector selector = Selector::kBeam;
   int rescue_frames = 30;  ///< dp: N, frames over which a reward fades towards a rescue; 0: rescues are free
   int beam_width = 64;     ///< beam: states that are kept
@@ -37,7 +38,9 @@ struct ArrangementConfig {
 /// core/setting.h.
 void visit_settings(ArrangementConfig& a, const auto& visit) {
   visit("switch_penalty", a.switch_penalty, -1e9, 0, "penalty on a change of option (Eq. 4), in rewards");
-  visit("rescue_reward", a.rescue_reward, 0, 1, "dp: reward below which a character is rescued");
+  visit("rescue_reward", a.rescue.reward, 0, 1, "dp: reward below which a character is rescued");
+  visit("rescue_distance", a.rescue.distance, 0, 1e9,
+        "dp: distance of a body from its reference beyond which a character is rescued, m");
   visit("rescue_frames", a.rescue_frames, 0, 1e9, "dp: frames over which rewards fade towards a rescue");
   visit("beam_width", a.beam_width, 1, 1e9, "beam: states kept per step");
   visit("beam_stretch", a.beam_stretch, 1, 1e9, "beam: frames for which an option acts at least");

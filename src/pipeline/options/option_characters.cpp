@@ -4,8 +4,7 @@ namespace mimicx::pipeline::options {
 
 Characters::Characters(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                        const rl::tracking::TrackingConfig& config, int count)
-    : terminate_distance_(config.terminate_distance),
-      state_(static_cast<std::size_t>(clip->state_size())),
+    : state_(static_cast<std::size_t>(clip->state_size())),
       scratch_(std::make_unique<physics::Data<Pack::P>>()) {
   const int packs = (count + physics::kLanes - 1) / physics::kLanes;
   packs_.assign(static_cast<std::size_t>(packs), Pack(clip, config));
@@ -20,10 +19,6 @@ void Characters::advance(const rl::tracking::MeanAction& policy, const List<int>
   }
   for (Pack& pack : packs_) pack.advance(*scratch_);
 }
-
-double Characters::reward(int c) const { return fell(c) ? 0.0 : pack(c).reward(lane(c)).total; }
-
-bool Characters::fell(int c) const { return !(pack(c).worst_distance(lane(c)) <= terminate_distance_); }
 
 void Characters::copy(int c, const Characters& from, int other) {
   pack(c).copy_lane(lane(c), from.pack(other), lane(other));

@@ -19,10 +19,10 @@ class Characters {
 
   /// Advances all by one frame, each with the mean action of its option. @param options  [count]
   void advance(const rl::tracking::MeanAction& policy, const List<int>& options);
-  /// The reward of Eqs. 2 and 3 at the frame reached; 0 if `fell`.
-  double reward(int c) const;
-  /// Whether a body is farther than `terminate_distance` from its reference, or the simulation failed.
-  bool fell(int c) const;
+  /// The reward of Eqs. 2 and 3 at the frame reached.
+  double reward(int c) const { return pack(c).reward(lane(c)).total; }
+  /// The largest distance of a body from its reference at the frame reached, m; ∞ if the simulation failed.
+  double worst_distance(int c) const { return pack(c).worst_distance(lane(c)); }
   /// Puts character c into the state of a character of `from`, which is on the same clip.
   void copy(int c, const Characters& from, int other);
   /// Puts character c into the reference's state.
@@ -34,7 +34,6 @@ class Characters {
   const Pack& pack(int c) const { return packs_[c / physics::kLanes]; }
   static int lane(int c) { return c % physics::kLanes; }
 
-  double terminate_distance_;
   List<Pack> packs_;
   std::vector<float> state_;  ///< [state_size] of the character that acts next
   std::unique_ptr<physics::Data<Pack::P>> scratch_;

@@ -8,7 +8,7 @@ namespace mimicx::pipeline::options {
 
 SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                                  const rl::tracking::TrackingConfig& config,
-                                 const std::vector<const Option*>& options, double threshold) {
+                                 const std::vector<const Option*>& options, const RescueBounds& bounds) {
   const rl::tracking::MeanAction policy = mean_action_of(options);
   const int count = static_cast<int>(options.size());
   List<int> own;  // character c acts by option c
@@ -22,8 +22,9 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::Track
     List<double> rewards;
     List<bool> failed;
     for (int c = 0; c < count; ++c) {
-      rewards.push_back(characters.reward(c));
-      failed.push_back(characters.fell(c) || !(rewards[c] >= threshold));
+      const bool fell = !(characters.worst_distance(c) <= bounds.distance);
+      rewards.push_back(fell ? 0.0 : characters.reward(c));
+      failed.push_back(fell || !(rewards[c] >= bounds.reward));
     }
     const auto best = static_cast<int>(std::max_element(rewards.begin(), rewards.end()) - rewards.begin());
     if (failed[best]) result.breaks.push_back(t);

@@ -5,15 +5,19 @@
 
 namespace mimicx::rl::tracking {
 
-List<double> start_weights(const List<double>& fall_rates, double uniform) {
+List<double> start_weights(const List<double>& fall_rates, const List<int>& frames, double uniform) {
   const int n = fall_rates.count();
   List<double> hard(fall_rates.size(), 0.0);
   for (int b = 0; b < n; ++b)
-    for (int back = 0; back < 3 && back <= b; ++back) hard[b - back] += fall_rates[b] * (0.5 - 0.15 * back);
+    for (int back = 0; back < 3 && back <= b; ++back)
+      if (frames[b - back] > 0) hard[b - back] += fall_rates[b] * (0.5 - 0.15 * back);
   const double total = std::accumulate(hard.begin(), hard.end(), 0.0);
+  const double all_frames = std::accumulate(frames.begin(), frames.end(), 0.0);
   List<double> weights(fall_rates.size());
-  for (int b = 0; b < n; ++b)
-    weights[b] = total > 0.0 ? uniform / n + (1.0 - uniform) * hard[b] / total : 1.0 / n;
+  for (int b = 0; b < n; ++b) {
+    const double even = frames[b] / all_frames;
+    weights[b] = total > 0.0 ? uniform * even + (1.0 - uniform) * hard[b] / total : even;
+  }
   return weights;
 }
 

@@ -21,9 +21,10 @@ struct TrackingStatistics {
   void add(const TrackingStatistics& other);
 };
 
-/// Probability of starting in each bin: a uniform share, and the rest in bins before falls. A fall in bin b
-/// counts for starts in b and in the two previous bins.
+/// Probability of starting in each bin: a share that makes all frames equally likely, and the rest in bins
+/// before falls. A fall in bin b counts for starts in b and in the two previous bins.
 /// @param fall_rates  [bin] share of visits that end in a fall
-List<double> start_weights(const List<double>& fall_rates, double uniform_share);
+/// @param frames      [bin] in which an episode can start; not all 0
+List<double> start_weights(const List<double>& fall_rates, const List<int>& frames, double uniform_share);
 
 }  // namespace mimicx::rl::tracking

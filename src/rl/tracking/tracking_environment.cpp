@@ -17,8 +17,12 @@ constexpr double kFallRateMemory = 0.8;               // share of the old estima
 constexpr std::int64_t kClipIterations = 16;          // iterations before a pack switches its clip
 constexpr double kSharpnessStep = 1.01;               // factor per iteration
 
-int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
-  return (clip.size() + config.bin_frames - 1) / config.bin_frames;
+/// [bin] frames in which an episode can start: all but the last one, so that it has a step.
+List<int> start_frames(const TrackingClip& clip, const TrackingConfig& config) {
+  List<int> frames;
+  for (int first = 0; first < clip.size(); first += config.bin_frames)
+    frames.push_back(std::min(clip.size() - 1 - first, config.bin_frames));
+  return frames;
 }
 
 }  // namespace
@@ -37,11 +41,12 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
   if (clips_.empty()) throw std::invalid_argument("TrackingEnvironment: no clips");
   require_whole_groups(characters, group_size);
   for (const auto& clip : clips_) {
-    const int bins = bins_of(*clip, config_);
+    start_frames_.push_back(start_frames(*clip, config_));
+    const int bins = start_frames_.back().count();
     last_.falls.emplace_back(bins, 0);
     last_.visits.emplace_back(bins, 0);
     fall_rates_.emplace_back(bins, 0.0);
-    start_weights_.push_back(start_weights(fall_rates_.back(), config_.uniform_starts));
+    start_weights_.push_back(start_weights(fall_rates_.back(), start_frames_.back(), config_.uniform_starts));
   }
   groups_.resize(characters / group_size);
   for (int g = 0; g < groups_.count(); ++g) {
@@ -72,11 +77,12 @@ void TrackingEnvironment::follow_next_clip(int g, int p) {
   next_clip_ = (next_clip_ + 1) % clips_.count();
 }
 
-/// Switches the packs that are due to their next clips. @return the characters of these packs
+/// Switches the packs that are due to their next clips, unless all clips have equally many packs.
+/// @return the characters of these packs
 std::vector<CharacterPlace> TrackingEnvironment::move_on() {
   std::vector<CharacterPlace> moved;
   const int per_group = groups_.front().packs.count();
-  if (clips_.count() <= groups_.count() * per_group) return moved;
+  if (groups_.count() * per_group % clips_.count() == 0) return moved;
   for (int g = 0; g < groups_.count(); ++g)
     for (int p = 0; p < per_group; ++p) {
       const int turn = g * per_group + p;
@@ -91,12 +97,11 @@ int TrackingEnvironment::draw_start(int clip, int group, int character, std::int
   Random random(seed_, {kStartStream, static_cast<std::uint64_t>(group),
                         static_cast<std::uint64_t>(character), static_cast<std::uint64_t>(episode)});
   const List<double>& weights = start_weights_[clip];
+  const List<int>& frames = start_frames_[clip];
   double draw = random.uniform();
   int bin = 0;
-  while (bin + 1 < weights.count() && draw >= weights[bin]) draw -= weights[bin++];
-  const int frame = bin * config_.bin_frames +
-                    static_cast<int>(random.below(static_cast<std::uint32_t>(config_.bin_frames)));
-  return std::min(frame, clips_[clip]->size() - 2);  // at least one step to the end
+  while (bin + 1 < weights.count() && frames[bin + 1] > 0 && draw >= weights[bin]) draw -= weights[bin++];
+  return bin * config_.bin_frames + static_cast<int>(random.below(static_cast<std::uint32_t>(frames[bin])));
 }
 
 void TrackingEnvironment::restart(int g, int character) {
@@ -168,7 +173,7 @@ std::vector<CharacterPlace> TrackingEnvironment::end_iteration() {
       const double rate = static_cast<double>(last_.falls[c][b]) / static_cast<double>(last_.visits[c][b]);
       fall_rates_[c][b] = kFallRateMemory * fall_rates_[c][b] + (1.0 - kFallRateMemory) * rate;
     }
-    start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
+    start_weights_[c] = start_weights(fall_rates_[c], start_frames_[c], config_.uniform_starts);
   }
   ++iteration_;
   return move_on();
@@ -224,7 +229,7 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   }
   for (int c = 0; c < clips_.count(); ++c) {
     fall_rates_[c] = numbers_at(archive, prefix + "fall_rates" + std::to_string(c), fall_rates_[c].size());
-    start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
+    start_weights_[c] = start_weights(fall_rates_[c], start_frames_[c], config_.uniform_starts);
   }
 }
 

@@ -9,9 +9,9 @@
 /// while the mean of the learner's rewards over an iteration is below `reward_target`, and returns to 1 as
 /// that mean rises (docs/method.md §7, (2)).
 ///
-/// Every pack of characters follows one clip. If there are more clips than packs, packs switch to the next
-/// clip in turn, so that all clips are used equally. Every start is drawn from a stream keyed by seed,
-/// character and episode.
+/// Every pack of characters follows one clip. Unless the packs can be shared out evenly among the clips,
+/// packs switch to the next clip in turn, so that all clips are used equally. Every start is drawn from a
+/// stream keyed by seed, character and episode.
 #pragma once
 
 #include <cstdint>
@@ -79,6 +79,7 @@ class TrackingEnvironment {
   int group_size_;
   std::uint64_t seed_;
   List<Group> groups_;
+  List<List<int>> start_frames_;  ///< [clip][bin] in which an episode can start
   List<List<double>> fall_rates_, start_weights_;
   std::int64_t iteration_ = 0;
   int next_clip_ = 0;  ///< clip of the next pack that switches

@@ -19,7 +19,7 @@ constexpr double kRescue = 0.3;
 
 ArrangementConfig by_programme(double switch_penalty, double rescue_reward) {
   return {.switch_penalty = switch_penalty,
-          .rescue_reward = rescue_reward,
+          .rescue = {rescue_reward},
           .selector = Selector::kDp,
           .rescue_frames = 0};
 }
@@ -50,7 +50,7 @@ TEST(Arrangement, IsTheBestOfAll) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(kFrames), {});
   const OptionSet set = set_of({0.02F, -0.02F});
   const Option &first = set.options[0].option, &second = set.options[1].option;
-  const SideBySide rolled = roll_out_side_by_side(clip, {}, {&first, &second}, kRescue);
+  const SideBySide rolled = roll_out_side_by_side(clip, {}, {&first, &second}, {kRescue});
   std::size_t most = 0;
   for (const double penalty : {0.0, -1e-3, -1.0}) {
     const ArrangedClip arranged = arrange(clip, {}, set, by_programme(penalty, kRescue));
@@ -104,7 +104,7 @@ TEST(Arrangement, ListsFramesThatNoOptionFollows) {
   const OptionSet bad = set_of({1.5F, 1.5F});
   const Option& option = bad.options[0].option;
   EXPECT_EQ(arrange(clip, {}, bad, by_programme(0.0, kRescue)).breaks,
-            roll_out_side_by_side(clip, {}, {&option, &option}, kRescue).breaks);
+            roll_out_side_by_side(clip, {}, {&option, &option}, {kRescue}).breaks);
   EXPECT_FALSE(arrange(clip, {}, bad, by_programme(0.0, kRescue)).breaks.empty());
 }
 
@@ -119,7 +119,7 @@ constexpr int kHalves = 60;
 
 ArrangementConfig selecting(Selector selector) {
   return {.switch_penalty = -1.0,
-          .rescue_reward = 0.1,
+          .rescue = {0.1},
           .selector = selector,
           .rescue_frames = 30,
           .beam_width = 4,

@@ -61,7 +61,7 @@ TEST(Rescues, OnlyFailingOptionsAreRescued) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
                bad = constant_option(rl::tracking::kStateSize, 1.5F);
-  const SideBySide rolled = roll_out_side_by_side(clip, {}, {&bad, &good}, 0.3);
+  const SideBySide rolled = roll_out_side_by_side(clip, {}, {&bad, &good}, {0.3});
   ASSERT_EQ(rolled.rescued.count(), 30);
   int rescues = 0;
   for (int t = 0; t < 30; ++t) {
@@ -77,8 +77,8 @@ TEST(Rescues, FailingOptionGetsTheStateOfTheBestOneNotOfAnyThatHolds) {
   const Option best = constant_option(rl::tracking::kStateSize, 0.0F),
                holds = constant_option(rl::tracking::kStateSize, 0.01F),
                bad = constant_option(rl::tracking::kStateSize, 1.5F);
-  const SideBySide alone = roll_out_side_by_side(clip, {}, {&bad, &best}, 0.3),
-                   beside = roll_out_side_by_side(clip, {}, {&bad, &holds, &best}, 0.3);
+  const SideBySide alone = roll_out_side_by_side(clip, {}, {&bad, &best}, {0.3}),
+                   beside = roll_out_side_by_side(clip, {}, {&bad, &holds, &best}, {0.3});
   int rescues = 0;
   for (int t = 1; t < 30 && beside.rewards[t][1] < beside.rewards[t][2]; ++t) {
     EXPECT_FALSE(beside.rescued[t][1]) << t;
@@ -90,18 +90,34 @@ TEST(Rescues, FailingOptionGetsTheStateOfTheBestOneNotOfAnyThatHolds) {
 
 // A fallen character earns 0, which a threshold of 0 does not exceed.
 TEST(Rescues, FallsAreRescuedAtAThresholdOfZero) {
-  rl::tracking::TrackingConfig config;
-  config.terminate_distance = 0.05;
-  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), config);
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
                bad = constant_option(rl::tracking::kStateSize, 1.5F);
-  const SideBySide rolled = roll_out_side_by_side(clip, config, {&bad, &good}, 0.0);
+  const SideBySide rolled = roll_out_side_by_side(clip, {}, {&bad, &good}, {0.0, 0.05});
   int rescues = 0;
   for (int t = 0; t < 30; ++t) {
     for (int c = 0; c < 2; ++c) EXPECT_EQ(rolled.rescued[t][c], rolled.rewards[t][c] == 0.0) << t << " " << c;
     if (rolled.rescued[t][0]) ++rescues;
   }
   EXPECT_GT(rescues, 1);
+}
+
+// The paper's rule: what counts is the reward alone, wherever the body is.
+TEST(Rescues, NoDistanceCallsForARescueWhereItIsBeyondReach) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
+  const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
+               bad = constant_option(rl::tracking::kStateSize, 1.5F);
+  constexpr double kAnyReward = 1e-12;
+  const SideBySide by_both = roll_out_side_by_side(clip, {}, {&bad, &good}, {kAnyReward, 0.05}),
+                   by_reward = roll_out_side_by_side(clip, {}, {&bad, &good}, {kAnyReward, 1000.0});
+  int rescued = 0, earned = 0;
+  for (int t = 1; t < 30; ++t) {
+    if (by_both.rescued[t][0]) ++rescued;
+    EXPECT_EQ(by_reward.rescued[t][0], by_reward.rewards[t][0] < kAnyReward) << t;
+    if (by_reward.rewards[t][0] >= kAnyReward) ++earned;
+  }
+  EXPECT_GT(rescued, 1);
+  EXPECT_GT(earned, 1) << "a body that is far away earns what Eqs. 2 and 3 say";
 }
 
 }  // namespace

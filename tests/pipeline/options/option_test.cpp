@@ -64,8 +64,8 @@ TEST(OptionRewards, FailingCharacterTakesTheBestOnesState) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
                bad = constant_option(rl::tracking::kStateSize, 1.5F);
-  const SideBySide result = roll_out_side_by_side(clip, {}, {&bad, &good, &bad}, 0.3);
-  const SideBySide alone = roll_out_side_by_side(clip, {}, {&good}, 0.3);
+  const SideBySide result = roll_out_side_by_side(clip, {}, {&bad, &good, &bad}, {0.3});
+  const SideBySide alone = roll_out_side_by_side(clip, {}, {&good}, {0.3});
   ASSERT_EQ(result.rewards.size(), 30U);
   EXPECT_TRUE(result.breaks.empty());
   for (std::size_t t = 1; t < 30; ++t) {
@@ -83,7 +83,7 @@ TEST(OptionRewards, FailingCharacterTakesTheBestOnesState) {
     pack.act(0, still.data());
     pack.act(1, bent.data());
     pack.advance(scratch);
-    const bool fell = !(pack.worst_distance(1) <= rl::tracking::TrackingConfig{}.terminate_distance);
+    const bool fell = !(pack.worst_distance(1) <= RescueBounds{}.distance);
     const double reward = fell ? 0.0 : pack.reward(1).total;
     EXPECT_EQ(result.rewards[t][0], reward) << t;
     EXPECT_EQ(result.rescued[t][0], reward < 0.3) << t;
@@ -98,7 +98,7 @@ TEST(OptionRewards, FailingCharacterTakesTheBestOnesState) {
 TEST(OptionRewards, AllRestartFromTheReferenceWhereAllFail) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option bad = constant_option(rl::tracking::kStateSize, 1.5F);
-  const SideBySide result = roll_out_side_by_side(clip, {}, {&bad, &bad}, 0.3);
+  const SideBySide result = roll_out_side_by_side(clip, {}, {&bad, &bad}, {0.3});
   ASSERT_GE(result.breaks.size(), 2U);
   std::array<float, kDofs> action;
   action.fill(1.5F);

@@ -152,16 +152,17 @@ List<std::int64_t> first_frames_reached(TrackingEnvironment& environment) {
   return environment.statistics().visits[0];
 }
 
-/// Σ (found − expected)² / expected of starts drawn by bin weights, evenly within a bin, in a clip of whole
-/// bins.
+/// Σ (found − expected)² / expected of starts drawn by bin weights, evenly over the frames of a bin in which
+/// an episode can start: all of the clip but the last.
 double chi_squared(const List<double>& weights, int bin_frames, int frames,
                    const List<std::int64_t>& reached) {
   List<double> expected(weights.size());
   std::int64_t all = 0;
   for (const std::int64_t n : reached) all += n;
-  for (int frame = 0; frame < frames; ++frame)  // the last two frames are too late for a start
-    expected[(std::min(frame, frames - 2) + 1) / bin_frames] +=
-        static_cast<double>(all) * weights[frame / bin_frames] / bin_frames;
+  for (int frame = 0; frame < frames - 1; ++frame) {
+    const int bin = frame / bin_frames, starts = std::min(frames - 1 - bin * bin_frames, bin_frames);
+    expected[(frame + 1) / bin_frames] += static_cast<double>(all) * weights[bin] / starts;
+  }
   double sum = 0.0;
   for (int b = 0; b < weights.count(); ++b) {
     const double off = static_cast<double>(reached[b]) - expected[b];
@@ -176,7 +177,8 @@ TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
   const int frames = 60;
   const auto clip = make_tracking_clip(swaying_reference(frames), config);
   TrackingEnvironment environment({clip}, config, 2048, 512, 17);
-  const List<double> evenly(6, 1.0 / 6);
+  List<double> evenly(6, 10.0 / 59);
+  evenly[5] = 9.0 / 59;
   constexpr double kUnlikely = 25.0;  // of 5 degrees of freedom: 1 in 7000
   EXPECT_LT(chi_squared(evenly, 10, frames, first_frames_reached(environment)), kUnlikely);
 
@@ -189,11 +191,28 @@ TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
   const List<std::int64_t> reached = first_frames_reached(environment);
   // Two fifths start anywhere; the rest in the bin of the falls and the two before it, as 10 : 7 : 4
   // (docs/method.md §9).
-  const double even = 0.4 / 6, hard = 0.6 / 21;
-  EXPECT_LT(chi_squared({even, even + 4 * hard, even + 7 * hard, even + 10 * hard, even, even}, 10, frames,
-                        reached),
+  const double even = 0.4 / 59, hard = 0.6 / 21;
+  EXPECT_LT(chi_squared({10 * even, 10 * even + 4 * hard, 10 * even + 7 * hard, 10 * even + 10 * hard,
+                         10 * even, 9 * even},
+                        10, frames, reached),
             kUnlikely);
   EXPECT_GT(chi_squared(evenly, 10, frames, reached), 10.0 * kUnlikely);
+}
+
+// A bin of starts that only the clip's last frames are in would otherwise take its whole share there: of 41
+// frames a fifth began one step before the end.
+TEST(TrackingEnvironment, EpisodesStartEverywhereInAClipOfPartsOfBins) {
+  TrackingConfig config;
+  config.terminate_distance = 0.0;
+  constexpr double kUnlikely = 25.0;
+  for (const int frames : {41, 43}) {
+    TrackingEnvironment environment({make_tracking_clip(swaying_reference(frames), config)}, config, 2048,
+                                    512, 17);
+    List<double> evenly;
+    for (int first = 0; first < frames; first += 10)
+      evenly.push_back(std::min(frames - 1 - first, 10) / (frames - 1.0));
+    EXPECT_LT(chi_squared(evenly, 10, frames, first_frames_reached(environment)), kUnlikely) << frames;
+  }
 }
 
 TEST(TrackingEnvironment, RecordsWhereCharactersFall) {
@@ -301,6 +320,25 @@ TEST(TrackingEnvironment, PacksTakeTurnsOverMoreClipsThanPacks) {
       for (const std::int64_t n : environment.statistics().visits[c]) visits[c] += n;
   }
   for (int c = 0; c < 5; ++c) EXPECT_GE(visits[c], 16 * physics::kLanes) << "clip " << c;
+}
+
+TEST(TrackingEnvironment, FewerClipsThanPacksHaveEqualShares) {
+  TrackingConfig config;
+  std::vector<std::shared_ptr<const TrackingClip>> clips;
+  for (int k = 0; k < 3; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
+  TrackingEnvironment environment(clips, config, 4 * physics::kLanes, 2 * physics::kLanes, 3);
+  List<std::int64_t> visits(3, 0);
+  StepResult result(2 * physics::kLanes, kStateSize);
+  constexpr int kIterations = 3 * 16;  // every pack has followed every clip for as many
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    for (int g = 0; g < 2; ++g)
+      environment.step(g, nn::Matrix<float>::Zero(2 * physics::kLanes, kDofs), result);
+    environment.end_iteration();
+    for (int c = 0; c < 3; ++c)
+      for (const std::int64_t n : environment.statistics().visits[c]) visits[c] += n;
+  }
+  for (const std::int64_t n : visits)
+    EXPECT_NEAR(static_cast<double>(n), 64.0 * physics::kLanes, 4.0 * physics::kLanes);
 }
 
 TEST(TrackingEnvironment, SoftensTheRewardOfAHardMotionAndRestoresIt) {
