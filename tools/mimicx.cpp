@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "core/build.h"
+#include "interrupts.h"
 #include "record/commit.h"
 #include "record/outputs.h"
 #include "standard_streams.h"

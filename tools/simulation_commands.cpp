@@ -1,6 +1,5 @@
 #include "simulation_commands.h"
 
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 
@@ -9,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "files/inputs.h"
+#include "interrupts.h"
 #include "record/json.h"
 #include "record/outputs.h"
 #include "record/run_folder.h"
@@ -20,18 +20,6 @@
 
 namespace mimicx::tools {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first interrupt asks for a checkpoint, a second one ends the program at once.
-void catch_interrupts() {
-  const auto handle = [](int signal) {
-    interrupted = 1;
-    std::signal(signal, end_by);
-  };
-  std::signal(SIGINT, handle);
-  std::signal(SIGTERM, handle);
-}
 
 int status_of(record::RunOutcome outcome) {
   switch (outcome) {
@@ -166,7 +154,7 @@ int with_context(bool quiet, const std::function<record::RunOutcome(const record
   record::Progress progress(std::cerr, record::stderr_is_terminal(), record::steady_seconds);
   if (quiet) progress.silence();
   try {
-    return status_of(work(record::RunContext{progress, std::cerr, [] { return interrupted != 0; }}));
+    return status_of(work(record::RunContext{progress, std::cerr, interrupted}));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

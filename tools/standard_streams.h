@@ -14,13 +14,6 @@ namespace mimicx::tools {
 /// fails.
 void occupy_standard_streams();
 
-/// Removes unfinished files, then ends the program as the signal does by itself. A handler of signals.
-void end_by(int signal);
-
-/// Sets the handlers of signals: a closed pipe or a limit of file sizes is an error of writing, which is
-/// reported; an interrupt leaves no temporary file.
-void handle_signals();
-
 /// Whether an output is standard output: "-".
 bool is_standard_output(const std::filesystem::path& path);
 /// Where a table is printed beside JSON at `json`: standard output; standard error where the JSON is there.

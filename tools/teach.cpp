@@ -25,7 +25,7 @@ int teach(TeachArguments a) {
       const auto found = files::find_motions(run.inputs, a.config.out, &context.messages);
       run.inputs = files::paths_of(found);
     }
-    return teaching::teach(a.config, context);
+    return teaching::teach_options(a.config, context);
   });
 }
 

@@ -15,7 +15,7 @@
 #include "files/archive_members.h"
 #include "pipeline/options/arrangement.h"
 #include "pipeline/options/option_rewards.h"
-#include "pipeline/training.h"
+#include "pipeline/training_loop.h"
 #include "program/configurations.h"
 #include "record/run_folder.h"
 #include "rl/tracking/tracking_environment.h"

@@ -1,7 +1,7 @@
 /// Distance of a joint's rotation from its anatomical range.                        docs/physics.md §3
 ///
 /// The range is the simulator's: beyond it, a spring of `limit_stiffness` times this distance pushes back
-/// (physics/joints.h).
+/// (physics/joint_torques.h).
 #pragma once
 
 #include "character/joint_parameters.h"

@@ -2,10 +2,10 @@
 ///
 ///     r = ν v_xy,   ν = 1 / (1 + (z₋/h)²),   z₋ = max(0, z + Δ min(0, v_z))
 ///
-/// z and v are a point's height over the ground under it and its velocity, h = kNearFloor, Δ = kAhead: a foot
-/// that touches the floor slips by its velocity, and one that swings over it slips the less the higher it is.
-/// So less slip is had by standing still or by lifting the foot. A foot that comes down counts by where it
-/// will be a frame later: when it has touched the floor, friction has stopped it, and nothing is to be seen.
+/// z and v are a point's height over the ground under it and its velocity, h = kNearFloor, Δ = kAhead. A
+/// point on the floor counts with its whole velocity; a swinging point counts less the higher it is. The cost
+/// therefore favours standing still or lifting the foot. A falling foot counts at its height one frame ahead,
+/// because friction stops it as soon as it lands.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,10 +1,10 @@
-/// What a body weighs, where only the places of its joints are known, or where the user knows it.
+/// Mass of a body of which only the places of the joints are known, or as the user gives it.
 ///
-/// Joints do not show the girth, β₁, so that a shape that is fitted to them weighs what its size happens to
-/// make it. People of stature H weigh BMI · H² on average, with a BMI that hardly depends on H (A. Keys et
-/// al., J. Chronic Dis. 25 (1972)). The BMI here is the mean of the reference adults of ICRP Publication 89
-/// (2002): 73 kg at 1.76 m and 60 kg at 1.63 m, 23.1 kg/m². Single adults differ from it by about 15 % (one
-/// standard deviation of young adults: NCD Risk Factor Collaboration, Lancet 387 (2016)).
+/// Joint positions do not determine the girth, β₁, so a shape that is fitted to them has an arbitrary mass.
+/// People of stature H weigh BMI · H² on average, with a BMI that hardly depends on H (A. Keys et al., J.
+/// Chronic Dis. 25 (1972)). The BMI here is the mean of the reference adults of ICRP Publication 89 (2002):
+/// 73 kg at 1.76 m and 60 kg at 1.63 m, 23.1 kg/m². Single adults differ from it by about 15 % (one standard
+/// deviation of young adults: NCD Risk Factor Collaboration, Lancet 387 (2016)).
 ///
 /// What it does not do: children, who weigh less for their stature.
 #pragma once

@@ -1,4 +1,4 @@
-/// What a file is that is no motion, in words, with what to do.
+/// Says what a file contains that is no motion, and what the user can do with it.
 #pragma once
 
 #include <string>

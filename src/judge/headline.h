@@ -11,11 +11,11 @@ struct Headline {
   const char* metric;  ///< of motion::metric_definitions
   motion::MetricValue motion::Metrics::*value;
   const char* unit;
-  double scale;     ///< from the metric's unit to that one
-  int decimals;     ///< that are printed
-  double visible;   ///< smaller values, in that unit, are not mentioned
-  bool always;      ///< whether it is told where it became better, too
-  const char* did;  ///< what a motion does that has this fault: "slides"
+  double scale;      ///< from the metric's unit to that one
+  int decimals;      ///< that are printed
+  double visible;    ///< smaller values, in that unit, are not mentioned
+  bool always;       ///< printed also where it became better
+  const char* verb;  ///< for a motion with this fault: "slides"
 };
 
 inline constexpr Array<Headline, 5> kHeadlines = {

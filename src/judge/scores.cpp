@@ -54,7 +54,7 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
   motion::Metrics metrics = motion::evaluate_motion(simulated, &same_length);
   judge_forces({character, poses, ground_of(rollout), reference.fps, reference.scene}, metrics);
   scores.values = named_values(metrics);
-  const motion::Success success = motion::judge_success(simulated, asked);
+  const motion::Success success = motion::success_of(simulated, asked);
   scores.values.emplace_back("max_distance_mm", kMm * success.max_distance_m);
   scores.success = success.success;
   scores.reason = success.reason;

@@ -153,7 +153,7 @@ std::string cause(const Headline& h, const std::vector<Frames>& stretches, const
   if (h.value == &motion::Metrics::gp && hangs(stretches, evidence.input))
     return "the input hangs over the floor";
   if (sum_over(stretches, reference) >= kShareOfFault * sum_over(stretches, result))
-    return std::string("its reference ") + h.did + ", too";
+    return std::string("its reference ") + h.verb + ", too";
   const std::string infeasible = infeasible_near(stretches, evidence.needs);
   return infeasible.empty() ? special_cause(h, stretches, result, evidence) : infeasible;
 }

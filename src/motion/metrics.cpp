@@ -216,7 +216,7 @@ Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth)
   return m;
 }
 
-Success judge_success(const MotionSamples& simulated, const MotionSamples& reference) {
+Success success_of(const MotionSamples& simulated, const MotionSamples& reference) {
   Success s;
   const int frames = std::min(simulated.frames(), reference.frames());
   Mean mpjpe;

@@ -74,6 +74,6 @@ struct Success {
   double mpjpe_mm = 0;
 };
 /// @param simulated  a motion shorter than the reference (a fall) is no success
-Success judge_success(const MotionSamples& simulated, const MotionSamples& reference);
+Success success_of(const MotionSamples& simulated, const MotionSamples& reference);
 
 }  // namespace mimicx::motion

@@ -13,7 +13,7 @@
 #pragma once
 
 #include "physics/contact.h"
-#include "physics/joints.h"
+#include "physics/joint_torques.h"
 #include "physics/kinematics.h"
 
 namespace mimicx::physics {

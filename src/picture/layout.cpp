@@ -38,8 +38,8 @@ std::string in_seconds(double time) {
 }
 
 /// @throws std::invalid_argument
-Stretch common_stretch(const List<PosedMotion>& motions, const PictureConfig& config) {
-  Stretch stretch = config.stretch;
+TimeSpan common_stretch(const List<PosedMotion>& motions, const PictureConfig& config) {
+  TimeSpan stretch = config.stretch;
   for (const PosedMotion& p : motions) stretch.last = std::min(stretch.last, p.seconds());
   const auto refuse = [&](double time) {
     throw std::invalid_argument(in_seconds(time) + " is not in the motion, which ends at " +
@@ -52,7 +52,7 @@ Stretch common_stretch(const List<PosedMotion>& motions, const PictureConfig& co
 }
 
 List<double> moments_of(const List<PosedMotion>& motions, const PictureConfig& config) {
-  const Stretch stretch = common_stretch(motions, config);
+  const TimeSpan stretch = common_stretch(motions, config);
   if (!config.at.empty()) return config.at;
   if (config.kind == Kind::kStill) return {telling_moment(motions[0], stretch)};
   if (config.kind != Kind::kAnimation) return even_moments(stretch, config.moments);

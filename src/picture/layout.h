@@ -24,11 +24,11 @@ struct PictureConfig {
   Kind kind = Kind::kStrip;
   /// Direction of the camera, degrees: 0 in front of the first body in its first pose, 90 at its right side.
   double view = 45.0;
-  List<double> at;            ///< moments to show, s; empty: evenly spaced, or `telling_moment` for a still
-  int moments = 8;            ///< number of moments of a strip or a stroboscope
-  Stretch stretch{0.0, 1e9};  ///< time range of the moments, s; cut to the range that all motions have
-  std::optional<Size> size;   ///< of the whole picture; none: chosen by the motion
-  double rate = 30.0;         ///< pages per second of an animation
+  List<double> at;             ///< moments to show, s; empty: evenly spaced, or `telling_moment` for a still
+  int moments = 8;             ///< number of moments of a strip or a stroboscope
+  TimeSpan stretch{0.0, 1e9};  ///< time range of the moments, s; cut to the range that all motions have
+  std::optional<Size> size;    ///< of the whole picture; none: chosen by the motion
+  double rate = 30.0;          ///< pages per second of an animation
 };
 
 /// A part of a picture: one motion at some moments.

@@ -15,7 +15,7 @@ Places places_of(const BodyPoses& poses) {
 
 }  // namespace
 
-List<double> even_moments(const Stretch& stretch, int count) {
+List<double> even_moments(const TimeSpan& stretch, int count) {
   if (count == 1) return {0.5 * (stretch.first + stretch.last)};
   List<double> moments;
   for (int k = 0; k < count; ++k)
@@ -23,7 +23,7 @@ List<double> even_moments(const Stretch& stretch, int count) {
   return moments;
 }
 
-double telling_moment(const PosedMotion& motion, const Stretch& stretch) {
+double telling_moment(const PosedMotion& motion, const TimeSpan& stretch) {
   const int first = motion.frame_at(stretch.first), last = motion.frame_at(stretch.last);
   Places mean = Places::Zero();
   for (int t = first; t <= last; ++t) mean += places_of(motion.poses[t]) / (last - first + 1.0);

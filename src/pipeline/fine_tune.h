@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pipeline/options/arrangement.h"
-#include "pipeline/training.h"
+#include "pipeline/training_loop.h"
 #include "run/method.h"
 
 namespace mimicx::pipeline {

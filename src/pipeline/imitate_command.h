@@ -1,7 +1,7 @@
 /// `mimicx imitate`: one policy per motion, trained from scratch.
 #pragma once
 
-#include "pipeline/training.h"
+#include "pipeline/training_loop.h"
 #include "run/sequence_run.h"
 
 namespace mimicx::pipeline {

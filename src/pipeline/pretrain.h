@@ -20,7 +20,7 @@
 #include "nn/autoencoder.h"
 #include "pipeline/options/clusters.h"
 #include "pipeline/options/option_set.h"
-#include "pipeline/training.h"
+#include "pipeline/training_loop.h"
 #include "record/progress.h"
 #include "run/preparation.h"
 

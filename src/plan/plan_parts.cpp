@@ -89,11 +89,11 @@ int followed_frames(const motion::Reference& reference, const rl::tracking::Trac
 }
 
 run::FollowedParts followed_parts(const motion::Reference& reference, const PlanningConfig& config,
-                                  const rl::tracking::TrackingRollout& lost, const run::SequenceJob& job) {
+                                  const rl::tracking::TrackingRollout& failed, const run::SequenceJob& job) {
   run::FollowedParts found;
   run::JobWatch watch{job};
-  add_part(reference, 0, lost, found);
-  int end = followed_frames(reference, lost);
+  add_part(reference, 0, failed, found);
+  int end = followed_frames(reference, failed);
   MotionPlanConfig settings = config.plan;
   settings.assisted_stages = false;
   settings.horizon.backtracks = std::min(settings.horizon.backtracks, kBacktracks);

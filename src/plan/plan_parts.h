@@ -1,4 +1,5 @@
-/// What a plan can follow of a motion that is lost: the part before the loss, and parts behind it.
+/// Parts of a motion that plans can follow where no plan follows all of it: its beginning, and stretches
+/// after each failure.
 ///
 /// A part is a stretch of the reference of one second or more that a simulated motion follows as a success
 /// (docs/metrics.md). The first is the beginning of the motion that failed. Then the rest of the reference is
@@ -19,8 +20,8 @@ namespace mimicx::plan {
 /// success.
 int followed_frames(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
-/// @param lost  the motion that is no success
+/// @param failed  the motion that is no success
 run::FollowedParts followed_parts(const motion::Reference& reference, const PlanningConfig& config,
-                                  const rl::tracking::TrackingRollout& lost, const run::SequenceJob& job);
+                                  const rl::tracking::TrackingRollout& failed, const run::SequenceJob& job);
 
 }  // namespace mimicx::plan

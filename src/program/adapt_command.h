@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pipeline/options/arrangement.h"
-#include "pipeline/training.h"
+#include "pipeline/training_loop.h"
 #include "plan/plan_settings.h"
 #include "run/sequence_run.h"
 #include "teaching/teaching_settings.h"

@@ -228,10 +228,12 @@ void add_camera(const ClipFiles& files, ReportClip& clip) {
   clip.camera = camera_of(motion::resampled(files.cleaned, clip.fps));
   if (!clip.camera) return;
   clip.camera->told = told_camera(files, clip.camera->placed, clip.fps);
-  ReportChart chart{{"distance from the keypoints", "px",
-                     "of the body's points, as the clip's camera sees them, and of the input as the camera "
-                     "does that it was told; each counts by its confidence"},
-                    {}};
+  ReportChart chart{
+      {"distance from the keypoints", "px",
+       "mean distance from the detected keypoints, weighted by their confidence: of the cleaned "
+       "motion and the reference through the clip's camera, of the input through the camera of "
+       "its file"},
+      {}};
   for (const Seen& s : files.motions) {
     const bool own = s.motion.who == Who::kInput && clip.camera->told;
     chart.lines.push_back(
@@ -308,9 +310,9 @@ std::vector<ReportMetric> report_metrics(bool truth) {
   std::vector<ReportMetric> metrics;
   Words force = words_of_value("audit", kRootForce);
   force.meaning =
-      "external force that the motion would need: of the input by its poses, beside the best floor forces; "
-      "of "
-      "the cleaned motion, beyond its recorded forces";
+      "external force that is still needed: for the input, beyond the best floor forces that its poses "
+      "allow; "
+      "for the cleaned motion, beyond its recorded forces";
   metrics.push_back({kRootForce, force, kPhysics});
   for (const char* name :
        {"slip", "slip_share", "FS_gt", "Float", "GP", "Jitter", "chatter", "FS", "SelfPen", "GP_max", "FS_0"})

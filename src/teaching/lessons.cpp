@@ -85,7 +85,7 @@ void append_lessons(const Lessons& more, Lessons& lessons) {
   lessons.put_back += more.put_back;
 }
 
-rl::Agent beginner(int state_size, const std::vector<int>& hidden, std::uint64_t seed) {
+rl::Agent untrained_agent(int state_size, const std::vector<int>& hidden, std::uint64_t seed) {
   rl::AgentShape shape;
   shape.observation_dim = state_size;
   shape.action_dim = kDofs;

@@ -97,8 +97,8 @@ void hide_shape(rl::Agent& agent) {
 
 }  // namespace
 
-Pupil new_pupil(const SchoolConfig& config, int state_size) {
-  return {untaught(state_size, config.hidden, config.seed)};
+Pupil untrained_pupil(const SchoolConfig& config, int state_size) {
+  return {untrained_policy(state_size, config.hidden, config.seed)};
 }
 
 std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,

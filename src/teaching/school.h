@@ -64,7 +64,7 @@ struct SchoolRound {
 /// The teachers by number. Called from several threads at once.
 using Teachers = std::function<Teacher(int)>;
 
-Pupil new_pupil(const SchoolConfig& config, int state_size = rl::tracking::kStateSize);
+Pupil untrained_pupil(const SchoolConfig& config, int state_size = rl::tracking::kStateSize);
 
 /// The next round. @param count  of teachers
 /// @return none if it was stopped; then the pupil is unchanged

@@ -18,7 +18,7 @@ struct Progress {
 };
 
 Progress resumed(const record::RunFolder& folder, const std::string& name, const SchoolConfig& school) {
-  Progress progress{new_pupil(school)};
+  Progress progress{untrained_pupil(school)};
   if (!std::filesystem::exists(folder.checkpoint(name))) return progress;
   progress.pupil = load_pupil(read_npz(folder.checkpoint(name)), "");
   progress.log = record::read_csv(folder.log(name));

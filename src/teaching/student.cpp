@@ -41,14 +41,16 @@ struct Best {
 
 /// @param times  as wide as the first student
 PolicyInTraining new_student(const Teacher& teacher, const StudentConfig& config, int times) {
-  return untaught(teacher.clip->state_size(), {times * config.hidden, times * config.hidden}, config.seed);
+  return untrained_policy(teacher.clip->state_size(), {times * config.hidden, times * config.hidden},
+                          config.seed);
 }
 
 }  // namespace
 
-std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
-                               const StudentConfig& config, const control::PlanControl& control,
-                               const std::function<void(const RoundStats&, const rl::Agent&)>& watch) {
+std::optional<rl::Agent> teach_student(
+    const Teacher& teacher, const rl::tracking::TrackingConfig& task, const StudentConfig& config,
+    const control::PlanControl& control,
+    const std::function<void(const RoundStats&, const rl::Agent&)>& watch) {
   PolicyInTraining student = new_student(teacher, config, 1);
   int steps =
       std::max(config.least_steps, static_cast<int>(std::lround(config.steps_per_frame * teacher.size())));

@@ -51,8 +51,9 @@ struct RoundStats {
 
 /// @param watch  called after every round; may be empty
 /// @return the best student; none if it was stopped
-std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
-                               const StudentConfig& config, const control::PlanControl& control,
-                               const std::function<void(const RoundStats&, const rl::Agent&)>& watch = {});
+std::optional<rl::Agent> teach_student(
+    const Teacher& teacher, const rl::tracking::TrackingConfig& task, const StudentConfig& config,
+    const control::PlanControl& control,
+    const std::function<void(const RoundStats&, const rl::Agent&)>& watch = {});
 
 }  // namespace mimicx::teaching

@@ -110,7 +110,7 @@ void check(const TeachConfig& config) {
   check(config.planning.planning);
 }
 
-record::RunOutcome teach(const TeachConfig& config, const record::RunContext& context) {
+record::RunOutcome teach_options(const TeachConfig& config, const record::RunContext& context) {
   const record::RunFolder folder{config.out};
   std::vector<std::string> files = config.planning.run.inputs;
   files.insert(files.end(), config.plans.begin(), config.plans.end());

@@ -45,6 +45,6 @@ NamedValues manifest_settings(const TeachConfig& config);
 /// @throws std::invalid_argument naming a setting that no teaching can have
 void check(const TeachConfig& config);
 
-record::RunOutcome teach(const TeachConfig& config, const record::RunContext& context);
+record::RunOutcome teach_options(const TeachConfig& config, const record::RunContext& context);
 
 }  // namespace mimicx::teaching

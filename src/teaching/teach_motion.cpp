@@ -87,10 +87,11 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   int rows = 0, rounds = 0;
   StudentConfig lessons = config.student;
   lessons.seed = training.seed;  // one seed for all training in a run
-  auto student = teach(*teacher, task, lessons, control, [&](const RoundStats& stats, const rl::Agent&) {
-    rows = stats.taken;
-    rounds = stats.round + 1;
-  });
+  auto student =
+      teach_student(*teacher, task, lessons, control, [&](const RoundStats& stats, const rl::Agent&) {
+        rows = stats.taken;
+        rounds = stats.round + 1;
+      });
   if (stopped()) return taught;
   taught.values = {{"teacher_survives", teacher->followed},
                    {"lessons", static_cast<double>(rows)},

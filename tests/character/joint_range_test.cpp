@@ -1,4 +1,5 @@
-// Distances of joints from their ranges. The simulator's own are compared in tests/physics/joints_test.cpp.
+// Distances of joints from their ranges. The simulator's own are compared in
+// tests/physics/joint_torques_test.cpp.
 #include "character/joint_range.h"
 
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@ namespace {
 
 TEST(FitSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) { check_settings(FitConfig{}); }
 
-TEST(FitSettings, WhatNoFitCanHaveIsRefusedByName) {
+TEST(FitSettings, RejectsImpossibleValuesByName) {
   EXPECT_NO_THROW(check(FitConfig{}));
   for (const char* name : {"fit_iterations", "fit_keypoint_sigma", "fit_prior_frames", "fit_slip_sigma"}) {
     FitConfig config;

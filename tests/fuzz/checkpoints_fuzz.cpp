@@ -33,7 +33,7 @@ Npz teaching_checkpoint() {
   teaching::SchoolConfig school;
   school.hidden = {1, 1};
   Npz npz;
-  teaching::save(npz, "", teaching::new_pupil(school));
+  teaching::save(npz, "", teaching::untrained_pupil(school));
   return npz;
 }
 

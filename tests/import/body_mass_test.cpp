@@ -35,7 +35,7 @@ TEST(BodyMass, GirthBringsAnyShapeToItsMass) {
   EXPECT_NEAR(with_mass({}, 300.0)[1], kMaxBeta, 1e-9);
 }
 
-TEST(BodyMass, UserKnowsBest) {
+TEST(BodyMass, GivenMassOverridesGivenStatureOverridesTheMean) {
   std::array<double, kBetas> betas = {1.0};
   EXPECT_NE(settle_mass({}, betas).find("usual one of adults"), std::string::npos);
   EXPECT_NEAR(mass_of(betas), usual_mass(1.03 * 1.718), 1e-6);
@@ -51,7 +51,7 @@ TEST(BodyMass, UserKnowsBest) {
   EXPECT_NEAR(mass_of(betas), usual_mass(1.9), 1e-6);
 }
 
-TEST(BodyMass, SettingsReachFilesOfOurBody) {
+TEST(BodyMass, MassSettingChangesFilesOfOurBody) {
   const motion::Clip clip = motion::standing_clip(4);
   const std::string bytes = format_npz(motion::to_npz(clip));
   ReadConfig config;

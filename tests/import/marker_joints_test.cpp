@@ -193,7 +193,7 @@ TEST(MarkerJoints, SayWhichMarkerIsMissing) {
       << said(unseen);
 }
 
-TEST(MarkerJoints, NamesOfOtherMarkerSets) {
+TEST(MarkerJoints, OtherMarkerSetsGiveTheSameJoints) {
   Markers markers = test::markers_of(walking());
   const auto before = joints_of(markers);
   const auto rename = [&](const std::string& from, const std::string& to) {

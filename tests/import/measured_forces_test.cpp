@@ -29,7 +29,7 @@ TEST(MeasuredForces, MotIsTurnedToOurWorldAndTheFirstPlateIsTheRightFoots) {
   EXPECT_TRUE(std::isnan(measured.mass));
 }
 
-TEST(MeasuredForces, NamesOfNewerFiles) {
+TEST(MeasuredForces, ReadsTheColumnNamesOfNewerFiles) {
   std::string text = kOldMot;
   for (std::size_t at; (at = text.find("1_ground_force_")) != std::string::npos;)
     text.replace(at, 15, "ground_XX_l_");
@@ -39,7 +39,7 @@ TEST(MeasuredForces, NamesOfNewerFiles) {
   EXPECT_EQ(measured_forces_from(text, "x.mot").samples[0].force[1].z(), 700.0);
 }
 
-TEST(MeasuredForces, NamesWhatIsWrong) {
+TEST(MeasuredForces, ErrorsSayWhatWasExpected) {
   const auto message = [](const std::string& text) {
     try {
       measured_forces_from(text, "walk.mot");
@@ -61,7 +61,7 @@ TEST(MeasuredForces, NamesWhatIsWrong) {
             std::string::npos);
 }
 
-TEST(MeasuredForces, Archive) {
+TEST(MeasuredForces, ReadsTheForcesOfAnNpz) {
   Npz npz;
   const std::vector<double> left = {0, 0, 1, 0, 0, 2}, right = {0, 0, 3, 0, 0, 4}, nothing(6, NAN);
   npz.path = "x.npz";

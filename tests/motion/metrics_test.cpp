@@ -348,11 +348,10 @@ TEST(Metrics, EveryValueHasOneDefinition) {
 
 TEST(Success, RequiresFullLengthSmallDistanceAndSmallMpjpe) {
   const MotionSamples reference = samples_of(test::random_clip(7, 20, 0.3));
-  EXPECT_TRUE(judge_success(reference, reference).success);
-  EXPECT_TRUE(
-      judge_success(moved(reference, [](double) -> Vector3d { return Vector3d(0.49, 0, 0); }), reference)
-          .success);
-  const Success far = judge_success(
+  EXPECT_TRUE(success_of(reference, reference).success);
+  EXPECT_TRUE(success_of(moved(reference, [](double) -> Vector3d { return Vector3d(0.49, 0, 0); }), reference)
+                  .success);
+  const Success far = success_of(
       moved(reference, [](double t) -> Vector3d { return Vector3d(t == 7 ? 0.51 : 0.0, 0, 0); }), reference);
   EXPECT_FALSE(far.success);
   EXPECT_NEAR(far.max_distance_m, 0.51, 1e-9);
@@ -363,7 +362,7 @@ TEST(Success, RequiresFullLengthSmallDistanceAndSmallMpjpe) {
     MotionSamples s = reference;
     for (auto& joints : s.joints)
       for (std::size_t j = 1; j < kBodies; ++j) joints[j].x() += d * kBodies / (kBodies - 1.0);
-    return judge_success(s, reference);
+    return success_of(s, reference);
   };
   EXPECT_TRUE(bent(0.0599).success);
   EXPECT_FALSE(bent(0.0601).success);
@@ -372,10 +371,10 @@ TEST(Success, RequiresFullLengthSmallDistanceAndSmallMpjpe) {
   MotionSamples fallen = reference;
   fallen.joints.resize(19);
   fallen.surface.resize(19);
-  EXPECT_FALSE(judge_success(fallen, reference).success);
+  EXPECT_FALSE(success_of(fallen, reference).success);
   MotionSamples broken = reference;
   broken.joints[3][5].x() = std::nan("");
-  EXPECT_FALSE(judge_success(broken, reference).success);
+  EXPECT_FALSE(success_of(broken, reference).success);
 }
 
 TEST(Metrics, OnAPlateAreAsOnTheFloor) {

@@ -7,7 +7,7 @@ namespace {
 
 TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) { check_settings(TrainingConfig{}); }
 
-TEST(TrainingSettings, WhatNoTrainingCanHaveIsRefusedByName) {
+TEST(TrainingSettings, RejectsImpossibleValuesByName) {
   EXPECT_NO_THROW(check(TrainingConfig{}));
   for (const auto& [name, value] : std::vector<std::pair<const char*, double>>{{"characters", 0},
                                                                                {"characters", 100},

@@ -330,7 +330,7 @@ TEST_F(PlanMotions, AFolderOfAnEarlierVersionIsContinuedWhereItsFormerSettingsAr
 
 TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) { check_settings(PlanningConfig{}); }
 
-TEST(PlanningSettings, WhatNoPlanCanHaveIsRefusedByName) {
+TEST(PlanningSettings, RejectsImpossibleValuesByName) {
   EXPECT_NO_THROW(check(PlanningConfig{}));
   for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"plan_horizon", 0},
                                                                                {"plan_commit", 0},

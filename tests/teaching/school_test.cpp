@@ -37,7 +37,7 @@ SchoolConfig thorough() {
 Teacher squat(int) { return teacher_of_squat(); }
 
 Pupil taught(const SchoolConfig& config, int threads = 1, const Teachers& teacher = squat) {
-  Pupil pupil = new_pupil(config);
+  Pupil pupil = untrained_pupil(config);
   for (int round = 0; round < config.rounds; ++round) {
     EXPECT_TRUE(teach_round(teacher, 3, {}, config, {.threads = threads}, pupil));
   }
@@ -60,7 +60,7 @@ TEST(School, FewRoundsTeachAMotion) {
 TEST(School, VisitsEveryTeacherBeforeRepeating) {
   SchoolConfig config = quick_school();
   config.packs = 3;
-  Pupil pupil = new_pupil(config);
+  Pupil pupil = untrained_pupil(config);
   std::mutex mutex;
   std::vector<int> visited;
   const Teachers teachers = [&](int k) {
@@ -89,7 +89,7 @@ TEST(School, DependsOnTheSeedNotOnThreads) {
 
 TEST(School, SavedPupilContinuesWithTheSameBytes) {
   const SchoolConfig config = quick_school();
-  Pupil pupil = new_pupil(config);
+  Pupil pupil = untrained_pupil(config);
   for (int round = 0; round < config.rounds; ++round) {
     Npz archive;
     save(archive, "x.", pupil);
@@ -102,8 +102,8 @@ TEST(School, SavedPupilContinuesWithTheSameBytes) {
 TEST(School, RejectsOptimiserMomentsOfAnotherNetwork) {
   SchoolConfig narrow, wide;
   narrow.hidden = {2, 2}, wide.hidden = {2, 3};
-  Pupil pupil = new_pupil(narrow);
-  pupil.adam = new_pupil(wide).adam;
+  Pupil pupil = untrained_pupil(narrow);
+  pupil.adam = untrained_pupil(wide).adam;
   Npz archive;
   save(archive, "x.", pupil);
   EXPECT_THROW(load_pupil(archive, "x."), DataError);
@@ -111,7 +111,7 @@ TEST(School, RejectsOptimiserMomentsOfAnotherNetwork) {
 
 TEST(School, StoppedRoundLeavesThePupilUnchanged) {
   const SchoolConfig config = quick_school();
-  Pupil pupil = new_pupil(config);
+  Pupil pupil = untrained_pupil(config);
   teach_round(squat, 3, {}, config, {.threads = 1}, pupil);
   const std::string before = bytes_of(pupil);
   control::PlanControl control;

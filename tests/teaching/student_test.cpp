@@ -23,7 +23,7 @@ TEST(Student, FollowsASquatAloneAndUnderPushes) {
   StudentConfig config = quick_student();
   config.rounds = 6;
   config.least_steps = 120;
-  const rl::Agent agent = teach(teacher, {}, config, {.threads = 2}).value();
+  const rl::Agent agent = teach_student(teacher, {}, config, {.threads = 2}).value();
   const auto alone = rl::tracking::roll_out(teacher.clip, {}, rl::tracking::mean_action({agent}));
   EXPECT_LT(alone.mean_position_error, 0.01);
   control::PushTest pushes;
@@ -32,8 +32,8 @@ TEST(Student, FollowsASquatAloneAndUnderPushes) {
 }
 
 TEST(Student, ThreadsDoNotChangeABit) {
-  const rl::Agent one = teach(teacher_of_squat(), {}, quick_student(), {.threads = 1}).value(),
-                  two = teach(teacher_of_squat(), {}, quick_student(), {.threads = 2}).value();
+  const rl::Agent one = teach_student(teacher_of_squat(), {}, quick_student(), {.threads = 1}).value(),
+                  two = teach_student(teacher_of_squat(), {}, quick_student(), {.threads = 2}).value();
   for (int layer = 0; layer < one.actor.layers(); ++layer) {
     EXPECT_EQ(one.actor.weights[static_cast<std::size_t>(layer)],
               two.actor.weights[static_cast<std::size_t>(layer)]);
@@ -46,9 +46,9 @@ TEST(Student, ThreadsDoNotChangeABit) {
 TEST(Student, AnotherSeedGivesAnotherStudent) {
   StudentConfig config = quick_student();
   config.rounds = 1;
-  const rl::Agent one = teach(teacher_of_squat(), {}, config, {}).value();
+  const rl::Agent one = teach_student(teacher_of_squat(), {}, config, {}).value();
   config.seed = 2;
-  EXPECT_NE(one.actor.weights[0], teach(teacher_of_squat(), {}, config, {}).value().actor.weights[0]);
+  EXPECT_NE(one.actor.weights[0], teach_student(teacher_of_squat(), {}, config, {}).value().actor.weights[0]);
 }
 
 TEST(Student, AddsStagesUntilItFollows) {
@@ -57,7 +57,7 @@ TEST(Student, AddsStagesUntilItFollows) {
   config.stages = 3;
   config.step_size = config.last_step_size = 1.0;  // far too large: it learns nonsense, and falls
   int rounds = 0;
-  teach(teacher_of_squat(), {}, config, {}, [&](const RoundStats&, const rl::Agent&) { ++rounds; });
+  teach_student(teacher_of_squat(), {}, config, {}, [&](const RoundStats&, const rl::Agent&) { ++rounds; });
   EXPECT_EQ(rounds, 6);
 }
 
@@ -67,8 +67,9 @@ TEST(Student, IsWiderAfterAFailedFirstStage) {
   config.stages = 2;
   config.step_size = config.last_step_size = 1.0;  // far too large: it learns nonsense, and falls
   std::vector<Eigen::Index> widths;
-  teach(teacher_of_squat(), {}, config, {},
-        [&](const RoundStats&, const rl::Agent& agent) { widths.push_back(agent.actor.weights[0].cols()); });
+  teach_student(teacher_of_squat(), {}, config, {}, [&](const RoundStats&, const rl::Agent& agent) {
+    widths.push_back(agent.actor.weights[0].cols());
+  });
   EXPECT_EQ(widths, (std::vector<Eigen::Index>{64, 64, 128, 128}));
 }
 
@@ -77,8 +78,8 @@ TEST(Student, KeepsAtMostTheConfiguredLessons) {
   config.rounds = 3;
   config.most_rows = 100;
   int taken = 0;
-  EXPECT_TRUE(teach(teacher_of_squat(), {}, config, {},
-                    [&](const RoundStats& stats, const rl::Agent&) { taken = stats.taken; }));
+  EXPECT_TRUE(teach_student(teacher_of_squat(), {}, config, {},
+                            [&](const RoundStats& stats, const rl::Agent&) { taken = stats.taken; }));
   EXPECT_EQ(taken, 3 * config.packs * physics::kLanes * teacher_of_squat().size());
 }
 
@@ -86,7 +87,7 @@ TEST(Student, StopsOnRequest) {
   control::PlanControl control;
   int asked = 0;
   control.should_stop = [&] { return ++asked > 10; };
-  EXPECT_FALSE(teach(teacher_of_squat(), {}, quick_student(), control));
+  EXPECT_FALSE(teach_student(teacher_of_squat(), {}, quick_student(), control));
 }
 
 }  // namespace

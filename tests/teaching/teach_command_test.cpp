@@ -46,8 +46,8 @@ struct Teach : testing::Test {
     return config;
   }
   static program::Outcome run(const TeachConfig& config, int asked = -1) {
-    return program::run_in_context([&](const record::RunContext& context) { return teach(config, context); },
-                                   asked);
+    return program::run_in_context(
+        [&](const record::RunContext& context) { return teach_options(config, context); }, asked);
   }
   /// What `run(teaching(name))` leaves; taught once for all tests.
   void teach_once(const std::string& name) const {

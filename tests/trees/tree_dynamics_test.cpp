@@ -243,7 +243,7 @@ TEST(Trees, SpatialInertiaIsThatOfPointMasses) {
   EXPECT_NEAR(v.dot(spatial_inertia({2.0, c, about_com}) * v), speed(a) + speed(b), 1e-13);
 }
 
-TEST(Trees, RefuseAParentThatIsNotThere) {
+TEST(Trees, RejectAMissingParent) {
   Tree tree;
   EXPECT_THROW(tree.add(0, Vector3d::Zero(), ball(), {}), std::invalid_argument);
 }

@@ -145,7 +145,7 @@ struct RunFiles {
   }
 };
 
-TEST(Sha256, ExamplesOfTheStandard) {
+TEST(Sha256, MatchesTheExamplesOfTheStandard) {
   const auto hex = [](const std::string& bytes) {
     std::string text;
     for (const char c : bytes) {
@@ -234,7 +234,7 @@ TEST(Verify, RefusesAnotherScene) {
   }
 }
 
-TEST(Verify, ReplayGivesTheBits) {
+TEST(Verify, ReplayRepeatsEveryBitAndFindsAChangedStep) {
   const TemporaryFolder folder;
   for (const Honest* sound : {&honest(), &honest_on_boxes()}) {
     write_file_atomically(folder.path / "c.cert", sound->file);
@@ -515,7 +515,7 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
   }
 }
 
-TEST(Certificate, OfARunsFiles) {
+TEST(Certificate, FromARunsFilesHasTheSameBytes) {
   const RunFiles run(honest().npz);
   const std::string file = certify_file(run.motion);
   EXPECT_EQ(file, honest().file);

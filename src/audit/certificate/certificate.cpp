@@ -13,7 +13,7 @@
 #include "core/file.h"
 #include "files/archive_members.h"
 #include "motion/clip_file.h"
-#include "physics/joints.h"
+#include "physics/joint_torques.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
 #include "rl/tracking/tracking_clip.h"

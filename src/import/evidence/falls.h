@@ -1,5 +1,5 @@
-/// Falls of a body whose unit of length, axes and frame rate are not known: lengths in lengths of the leg,
-/// times in frames.
+/// Detects free falls of a body of unknown scale, axes and frame rate. Lengths are in leg lengths, times in
+/// frames.
 #pragma once
 
 #include <utility>

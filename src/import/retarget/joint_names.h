@@ -33,7 +33,7 @@ using NamedJoints = std::vector<std::pair<int, std::string>>;
 NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path& path);
 
 /// @param user_map  a file of additional names; empty: none
-/// @param told      gets a line where joints are matched by the skeleton's shape; null: nobody is told
+/// @param told      gets a line where joints are matched by the skeleton's shape; may be null
 /// @throws DataError where a required body has no joint, or its joint has the wrong parent
 JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map = {},
                     std::vector<std::string>* told = nullptr);

@@ -19,7 +19,7 @@ constexpr double kSurroundings = 1.0 / 3.0;  ///< s before and after frames beyo
 struct JointOverStretch {
   const Reference& reference;
   int body;
-  Stretch stretch;
+  FrameSpan stretch;
 
   /// The distance of the joint, turned by c. Turns are small: exp(c + δ) ≈ exp(c) exp(δ).
   RangeDistance distance(int i, const Vector3d& c) const {
@@ -86,7 +86,7 @@ RangeReport turn_into_ranges(Reference& reference) {
   for (int body = 1; body < kBodies; ++body) {
     PerFrame<bool> beyond;
     for (int t = 0; t < frames; ++t) beyond.push_back(excess(t, body) > 0.0);
-    for (const Stretch& stretch : stretches_around(beyond, around)) {
+    for (const FrameSpan& stretch : stretches_around(beyond, around)) {
       const List<Vector3d> c = turns_into_range({reference, body, stretch});
       for (int i = 0; i < c.count(); ++i) turn_alone(body, c[i], reference.frames[stretch.first + i].q);
     }

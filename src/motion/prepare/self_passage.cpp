@@ -111,7 +111,7 @@ struct Situation {
   const Reference& reference;
   Passage passage;
   TurnedLimb limb;
-  Stretch stretch;
+  FrameSpan stretch;
   std::vector<std::array<int, 2>> pairs;  ///< a body of the limb, one of the obstacle's
 
   PerBody<Quaterniond> turned(int i, const LimbTurns& c) const {
@@ -284,7 +284,7 @@ struct Way {
   double cost = 0;
   List<LimbTurns> c;
   TurnedLimb limb;
-  Stretch stretch;
+  FrameSpan stretch;
 };
 
 /// The cheapest way of a passage; none if all of them lead through the body.

@@ -14,14 +14,14 @@
 namespace mimicx::motion {
 
 /// Frames first … last − 1.
-struct Stretch {
+struct FrameSpan {
   int first = 0, last = 0;
   int size() const { return last - first; }
 };
 
 /// Stretches that contain the given frames and `around` more to either side; those that meet are one.
-inline List<Stretch> stretches_around(const PerFrame<bool>& chosen, int around) {
-  List<Stretch> stretches;
+inline List<FrameSpan> stretches_around(const PerFrame<bool>& chosen, int around) {
+  List<FrameSpan> stretches;
   for (int t = 0; t < chosen.count(); ++t) {
     if (!chosen[t]) continue;
     const int first = std::max(t - around, 0), last = std::min(t + around + 1, chosen.count());
@@ -49,7 +49,7 @@ class CorrectionEquations {
   using Unknowns = Eigen::Matrix<double, N, 1>;
 
   /// @param frames  of the motion. @param c  [stretch] the state
-  CorrectionEquations(const Stretch& stretch, int frames, double fps, const CorrectionSigmas& sigmas,
+  CorrectionEquations(const FrameSpan& stretch, int frames, double fps, const CorrectionSigmas& sigmas,
                       const List<Unknowns>& c)
       : rhs_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(N) * stretch.size())) {
     const double rate = 900.0 / (fps * fps), bend = 1.0 / (rate * rate * sigmas.bend * sigmas.bend);
@@ -114,7 +114,7 @@ struct SmoothCorrection {
 /// A step that does not lower the cost is halved.
 /// @param add_residuals  (c, equations): adds the residuals of a state to its equations
 template <int N, class AddResiduals>
-SmoothCorrection<N> smooth_correction(const Stretch& stretch, int frames, double fps,
+SmoothCorrection<N> smooth_correction(const FrameSpan& stretch, int frames, double fps,
                                       const CorrectionSigmas& sigmas, const AddResiduals& add_residuals) {
   using Unknowns = Eigen::Matrix<double, N, 1>;
   const auto equations_at = [&](const List<Unknowns>& c) {

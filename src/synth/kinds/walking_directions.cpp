@@ -8,7 +8,7 @@ namespace mimicx::synth {
 namespace {
 
 /// A pair of steps in the walker's own frame.
-struct Stretch {
+struct WalkSegment {
   double ahead, aside;  ///< m, x forward and y left
   double turn;          ///< rad, to the left
   double swing, both;   ///< s, a foot in the air, and both on the floor after it
@@ -21,7 +21,7 @@ struct Walker {
   double yaw = 0.0, toes_out = 0.0;
 
   /// A foot goes to its side of where the walker is now.
-  void put(Choreography& c, int side, const Stretch& stretch) const {
+  void put(Choreography& c, int side, const WalkSegment& stretch) const {
     const double mirror = side == 0 ? 1.0 : -1.0;
     const Eigen::Vector2d left(-sin(yaw), cos(yaw));
     c.step(side, middle + mirror * stretch.half_width * left, yaw + mirror * toes_out, stretch.swing);
@@ -31,7 +31,7 @@ struct Walker {
 
 /// A pair of steps. The foot on the side that the pair goes or turns to begins and takes all of that way, so
 /// that feet never cross; what goes ahead is shared.
-void pair_of_steps(Choreography& c, Walker& walker, const Stretch& stretch) {
+void pair_of_steps(Choreography& c, Walker& walker, const WalkSegment& stretch) {
   const double to_side = stretch.aside != 0.0 ? stretch.aside : stretch.turn;
   const int lead = to_side > 0.0 ? 0 : to_side < 0.0 ? 1 : static_cast<int>(c.random().below(2));
   walker.yaw += stretch.turn;
@@ -43,13 +43,13 @@ void pair_of_steps(Choreography& c, Walker& walker, const Stretch& stretch) {
 }
 
 /// The feet side by side again.
-void close_feet(Choreography& c, const Walker& walker, const Stretch& stretch, int side) {
+void close_feet(Choreography& c, const Walker& walker, const WalkSegment& stretch, int side) {
   walker.put(c, side, stretch);
 }
 
-Stretch random_pace(const PlanRequest& request) {
+WalkSegment random_pace(const PlanRequest& request) {
   Random& random = request.random;
-  Stretch pace{};
+  WalkSegment pace{};
   pace.swing = random.uniform(0.42, 0.52);
   pace.both = random.uniform(0.12, 0.20);
   pace.half_width = rest_half_width(request.character) * random.uniform(0.95, 1.08);
@@ -77,9 +77,9 @@ PerFrame<PlanFrame> walked(const PlanRequest& request, double arms, const Next& 
   Choreography c = at_ease(request);
   Walker walker;
   walker.toes_out = c.feet()[0].yaw;
-  Stretch last{};
+  WalkSegment last{};
   for (int pair = 0;; ++pair) {
-    const Stretch stretch = next(c, pair);
+    const WalkSegment stretch = next(c, pair);
     if (2.0 * (stretch.swing + stretch.both) + kClosing > c.left()) break;
     pair_of_steps(c, walker, stretch);
     last = stretch;
@@ -97,7 +97,7 @@ PerFrame<PlanFrame> walked(const PlanRequest& request, double arms, const Next& 
 
 PerFrame<PlanFrame> plan_walk_back(const PlanRequest& request) {
   const double leg = leg_length(request.character);
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   const double step = request.random.uniform(0.25, 0.42) * leg;
   const double curve = request.random.uniform(-10.0, 10.0) * kDegree;
   return walked(request, 0.6, [&](Choreography&, int pair) {
@@ -109,7 +109,7 @@ PerFrame<PlanFrame> plan_walk_back(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_walk_diagonal(const PlanRequest& request) {
   const double leg = leg_length(request.character);
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   const double ahead = request.random.uniform(-0.4, 0.5) * leg;
   const double side = request.random.below(2) == 0 ? 1.0 : -1.0,
                aside = side * request.random.uniform(0.10, 0.26) * leg;
@@ -122,7 +122,7 @@ PerFrame<PlanFrame> plan_walk_diagonal(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_walk_curve(const PlanRequest& request) {
   const double leg = leg_length(request.character);
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   const double step = request.random.uniform(0.30, 0.50) * leg;
   const double side = request.random.below(2) == 0 ? 1.0 : -1.0;
   double curve = side * request.random.uniform(12.0, 32.0) * kDegree;
@@ -137,7 +137,7 @@ PerFrame<PlanFrame> plan_walk_curve(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_walk_stop(const PlanRequest& request) {
   const double leg = leg_length(request.character);
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   int left = 0;
   double step = 0.0;
   return walked(request, 0.8, [&](Choreography& c, int) {
@@ -155,7 +155,7 @@ PerFrame<PlanFrame> plan_walk_stop(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_shuffle(const PlanRequest& request) {
   const double leg = leg_length(request.character);
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   return walked(request, 0.3, [&](Choreography& c, int) {
     pace.ahead = c.random().uniform(-0.25, 0.25) * leg;
     pace.aside = c.random().uniform(-0.15, 0.15) * leg;
@@ -167,7 +167,7 @@ PerFrame<PlanFrame> plan_shuffle(const PlanRequest& request) {
 }
 
 PerFrame<PlanFrame> plan_turn_around(const PlanRequest& request) {
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   pace.swing += 0.06;
   double turn = 0.0;
   int left = 0;
@@ -187,7 +187,7 @@ PerFrame<PlanFrame> plan_walk_crouched(const PlanRequest& request) {
   Choreography c = at_ease(request);
   Walker walker;
   walker.toes_out = c.feet()[0].yaw;
-  Stretch pace = random_pace(request);
+  WalkSegment pace = random_pace(request);
   PlanFrame low = c.stand();
   low.pelvis.x() = c.random().uniform(8.0, 24.0) * kDegree;
   low.trunk.x() = c.random().uniform(4.0, 22.0) * kDegree;

@@ -31,7 +31,7 @@ TEST(Cadence, UnitAndAxesDoNotMatter) {
                    *walking_leg(walk, Vector3d::UnitZ(), 30.0));
 }
 
-TEST(Cadence, WhoDoesNotWalkTellsNothing) {
+TEST(Cadence, GivesNoLegLengthWithoutWalking) {
   for (const char* kind : {"stand", "squat", "wave", "turn_in_place"})
     EXPECT_FALSE(walking_leg(landmarks_of_kind(kind), Vector3d::UnitZ(), 30.0)) << kind;
 }

@@ -31,7 +31,7 @@ TEST(LengthUnit, ChildrenHaveLongTrunksForTheirLegs) {
   EXPECT_EQ(decide(33.0, 0.62).name, "inches") << "legs of 84 cm";
 }
 
-TEST(LengthUnit, ASmallAdultIsNotMadeAGiantOfInches) {
+TEST(LengthUnit, LegsOf40UnitsAreCentimetres) {
   const UnitDecision small = decide(40.6);
   EXPECT_EQ(small.name, "centimetres");
   EXPECT_TRUE(small.fits);

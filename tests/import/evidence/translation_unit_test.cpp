@@ -45,7 +45,7 @@ TEST(TranslationUnit, ACrawlTellsItsUnitWhereverTheOriginIs) {
   }
 }
 
-TEST(TranslationUnit, ASkaterKeepsTheWay) {
+TEST(TranslationUnit, GlidingAtFiveMetresPerSecondStaysInMetres) {
   // Upright without a step, at 5 m/s: in millimetres the feet would rest, but the floor would be at −0.9 m.
   motion::Clip clip = test::standing_clip(90, test::standing_height());
   for (std::size_t t = 0; t < clip.trans.size(); ++t)

@@ -83,7 +83,7 @@ TEST(UpAxis, AHandstandStaysOnItsHands) {
   EXPECT_EQ(decided(clip, 'y', 'y').axis, 'y');
 }
 
-TEST(UpAxis, TwoThatAreNearGiveAWarning) {
+TEST(UpAxis, NearlyEqualAxesGiveAWarning) {
   motion::Clip clip = on_floor(still(-test::kPi / 2));  // lies on the floor along y, as a person stands y up
   shift_world({0, 5, 0}, clip);
   const UpDecision up = decided(clip, 'z', 'z');

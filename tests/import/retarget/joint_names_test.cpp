@@ -96,7 +96,7 @@ TEST(JointNames, UnderstandsCommonNamingConventions) {
                     {"#femur", "#tibia", "#foot", "#toes", "#clavicle", "#humerus", "#radius", "#wrist"}));
 }
 
-TEST(JointNames, MarksBehindTheWordSayNothing) {
+TEST(JointNames, IgnoresSuffixesOfRigs) {
   const Words middle = {"root", "spine_1", "spine_2", "spine_3", "neck_1", "head"};
   for (const Words& limbs :
        {Words{"#_thigh_JNT", "#_shin_JNT", "#_foot_JNT", "#_toe_JNT", "#_clavicle_JNT", "#_upperarm_JNT",

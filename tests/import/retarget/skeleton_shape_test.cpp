@@ -93,7 +93,7 @@ TEST(SkeletonShape, DividedBonesCountAsOne) {
     EXPECT_EQ((*map)[b], place(b)) << kBodyNames[b];
 }
 
-TEST(SkeletonShape, AThingWithoutLimbsIsNone) {
+TEST(SkeletonShape, FindsNoBodyWithoutLimbs) {
   SkeletonMotion motion;
   motion.joints.push_back({"root", -1, Vector3d::Zero(), false});
   for (int j = 0; j < 5; ++j) motion.joints.push_back({"link", j, Vector3d::UnitY(), false});

@@ -184,7 +184,7 @@ TEST(Arrangement, NearestIsTheOptionOfTheNearestCentre) {
 
 TEST(Arrangement, EverySettingCanBeChangedByItsNameAndChangesNoOther) { check_settings(ArrangementConfig{}); }
 
-TEST(Arrangement, RefusesNumbersThatCannotBe) {
+TEST(Arrangement, RejectsImpossibleValues) {
   const ArrangementConfig good = selecting(Selector::kBeam);
   EXPECT_NO_THROW(require_ranges(good));
   for (const auto& spoil : std::vector<void (*)(ArrangementConfig&)>{

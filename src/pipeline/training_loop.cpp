@@ -1,4 +1,4 @@
-#include "pipeline/training.h"
+#include "pipeline/training_loop.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "character/joint_range.h"
-#include "physics/joints.h"
+#include "physics/joint_torques.h"
 #include "physics/test_states.h"
 
 namespace mimicx::physics {
