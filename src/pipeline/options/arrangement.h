@@ -27,7 +27,7 @@ enum class Selector { kDp, kBeam, kSingle, kNearest };
 /// The defaults are those of `mimicx adapt`.
 struct ArrangementConfig {
   double switch_penalty = -1.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
-  RescueBounds rescue;           ///< dp: what puts a character into the best one's state
+  RescueBounds rescue = {};      ///< dp: what puts a character into the best one's state
   Selector selector = Selector::kBeam;
   int rescue_frames = 30;  ///< dp: N, frames over which a reward fades towards a rescue; 0: rescues are free
   int beam_width = 64;     ///< beam: states that are kept
