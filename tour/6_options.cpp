@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   for (const TrainedOption& trained : set->options) options.push_back(&trained.option);
   const rl::tracking::TrackingConfig config;
   const auto clip =
-      encoded_for(rl::tracking::make_tracking_clip(tour::motion_of_kind("walk", 2), config), options);
+      encoded_for(rl::tracking::make_tracking_clip(tour::motion_of_kind("walk", 4), config), options);
   const SideBySide rolled = roll_out_side_by_side(clip, config, options, {});
   const OptionRewards rewards = charge_rescues(rolled, 30);
   for (const double penalty : {0.0, -0.05, -1.0}) {
