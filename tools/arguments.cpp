@@ -378,7 +378,8 @@ CommandLine::~CommandLine() = default;
 
 Command CommandLine::add(const std::string& name, const std::string& purpose, const std::string& examples,
                          const std::string& more) {
-  heads_->set(name, examples, purpose + "." + (more.empty() ? "" : " " + more));
+  heads_->set(name, examples,
+              (purpose.ends_with("?") ? purpose : purpose + ".") + (more.empty() ? "" : " " + more));
   CLI::App* command = app_->add_subcommand(name, purpose);
   command->group("Commands");
   return {command, &action_};

@@ -83,7 +83,7 @@ int certify(const CertifyArguments& a) {
 void declare_certify(CommandLine& line) {
   const auto a = std::make_shared<CertifyArguments>();
   Command command =
-      line.add("certify", "Write certificates of motions, which `verify` checks without this program.",
+      line.add("certify", "Write certificates of motions, which `verify` checks without this program",
                "mimicx plan DIR --substeps --out out/run\n"
                "mimicx certify out/run/motions --out out/certificates\n"
                "verify out/certificates",
