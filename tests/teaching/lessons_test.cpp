@@ -11,8 +11,8 @@ namespace {
 
 using physics::kLanes;
 
-/// A student that has learned nothing.
-rl::Agent untrained_agent() {
+/// A student that has learned nothing; unlike `untrained_agent` its actions are large.
+rl::Agent clumsy_student() {
   rl::AgentShape shape;
   shape.observation_dim = rl::tracking::kStateSize;
   shape.action_dim = kDofs;
@@ -48,7 +48,7 @@ TEST(Lessons, LanesAreEqualWithoutDisturbance) {
 }
 
 TEST(Lessons, DependOnTheKeyOnly) {
-  const rl::Agent student = untrained_agent();
+  const rl::Agent student = clumsy_student();
   const Lessons a = take_lessons(teacher_of_squat(), {}, {}, &student, {1, 5}),
                 b = take_lessons(teacher_of_squat(), {}, {}, &student, {1, 5}),
                 c = take_lessons(teacher_of_squat(), {}, {}, &student, {1, 6});
@@ -58,7 +58,7 @@ TEST(Lessons, DependOnTheKeyOnly) {
 }
 
 TEST(Lessons, ResetsLanesThatLeaveTheMotion) {
-  const rl::Agent student = untrained_agent();
+  const rl::Agent student = clumsy_student();
   LessonConfig strict;
   strict.off_path = 0.02;
   const Lessons lessons = take_lessons(teacher_of_squat(), {}, strict, &student, {1, 0});
@@ -86,7 +86,7 @@ TEST(Lessons, MirroredLessonsAreMirrorImages) {
 
 TEST(Lessons, ExpertActionDoesNotDependOnTheActingPolicy) {
   // In the first frame all lanes stand where the motion begins, whoever will act next.
-  const rl::Agent student = untrained_agent();
+  const rl::Agent student = clumsy_student();
   LessonConfig calm;
   calm.action_noise = calm.push = 0.0;
   const Lessons taught = take_lessons(teacher_of_squat(), {}, calm, nullptr, {1, 0}),
@@ -99,7 +99,7 @@ TEST(Lessons, ExpertActionDoesNotDependOnTheActingPolicy) {
 TEST(Pushes, UntrainedAgentFallsUnderPushes) {
   control::PushTest test;
   test.trials = kLanes;
-  EXPECT_EQ(test_pushes(teacher_of_squat().clip, {}, untrained_agent(), test).followed, 0);
+  EXPECT_EQ(test_pushes(teacher_of_squat().clip, {}, clumsy_student(), test).followed, 0);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 /// Moments in ankles, knees and hips about the leftward axis of the hips, N·m/kg: computed from measured
-/// forces
-/// (`planar_moments`), and recorded by a simulation (`recorded_moments`).
+/// forces (`planar_moments`), and recorded by a simulation (`recorded_moments`).
 ///
 /// From below: the floor's force at its centre of pressure and the segments' weights and accelerations, as
 /// point masses (D. A. Winter, "Biomechanics and Motor Control of Human Movement" (2009), ch. 5; shares and
 /// centres of mass of foot, shank and thigh of P. de Leva, J. Biomech. 29 (1996)). Accelerations are those of
-/// least-squares cubics over seven frames (A. Savitzky, M. J. E. Golay, Anal. Chem. 36 (1964)). They are the
-/// moments of the upper segment on the lower one. Positive plantar-flexes the ankle, flexes the knee and
-/// extends the hip.
+/// least-squares cubics over seven frames (A. Savitzky, M. J. E. Golay, Anal. Chem. 36 (1964)).
+///
+/// Moments are those of the upper segment on the lower one. Positive plantar-flexes the ankle, flexes the
+/// knee and extends the hip.
 #pragma once
 
 #include "audit/audit.h"

@@ -66,8 +66,7 @@ bool act(const Search& search, List<Path>& paths, Characters& characters, int fr
     if (search.should_stop && search.should_stop()) return false;
     characters.advance(search.policy, options);
     for (Path& path : paths) {
-      path.fell =
-          path.fell || !(characters.worst_distance(path.character) <= search.tracking.terminate_distance);
+      path.fell = path.fell || characters.fell(path.character, search.tracking.terminate_distance);
       if (!path.fell) path.value += characters.reward(path.character);
     }
   }

@@ -21,8 +21,8 @@ class Characters {
   void advance(const rl::tracking::MeanAction& policy, const List<int>& options);
   /// The reward of Eqs. 2 and 3 at the frame reached.
   double reward(int c) const { return pack(c).reward(lane(c)).total; }
-  /// The largest distance of a body from its reference at the frame reached, m; ∞ if the simulation failed.
-  double worst_distance(int c) const { return pack(c).worst_distance(lane(c)); }
+  /// Whether a body is farther than this from its reference, m, or the simulation failed.
+  bool fell(int c, double distance) const { return !(pack(c).worst_distance(lane(c)) <= distance); }
   /// Puts character c into the state of a character of `from`, which is on the same clip.
   void copy(int c, const Characters& from, int other);
   /// Puts character c into the reference's state.

@@ -22,7 +22,7 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::Track
     List<double> rewards;
     List<bool> failed;
     for (int c = 0; c < count; ++c) {
-      const bool fell = !(characters.worst_distance(c) <= bounds.distance);
+      const bool fell = characters.fell(c, bounds.distance);
       rewards.push_back(fell ? 0.0 : characters.reward(c));
       failed.push_back(fell || !(rewards[c] >= bounds.reward));
     }

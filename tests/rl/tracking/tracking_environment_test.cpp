@@ -230,6 +230,29 @@ TEST(TrackingEnvironment, RecordsWhereCharactersFall) {
   EXPECT_EQ(environment.statistics().steps, 16 * 2 * physics::kLanes);
 }
 
+/// `count` clips of 20 frames and more.
+std::vector<std::shared_ptr<const TrackingClip>> short_clips(int count) {
+  std::vector<std::shared_ptr<const TrackingClip>> clips;
+  for (int k = 0; k < count; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), {}));
+  return clips;
+}
+
+/// [clip] steps of characters on it, in iterations of one step.
+List<std::int64_t> visits_after(int iterations, TrackingEnvironment& environment) {
+  List<std::int64_t> visits;
+  StepResult result(environment.group_size(), kStateSize);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    for (int g = 0; g < environment.groups(); ++g)
+      environment.step(g, nn::Matrix<float>::Zero(environment.group_size(), kDofs), result);
+    environment.end_iteration();
+    const List<List<std::int64_t>>& bins = environment.statistics().visits;
+    visits.resize(bins.size(), 0);
+    for (int c = 0; c < bins.count(); ++c)
+      for (const std::int64_t n : bins[c]) visits[c] += n;
+  }
+  return visits;
+}
+
 /// Episodes that each character has begun. [group][character]
 std::vector<std::vector<double>> episodes_begun(const TrackingEnvironment& environment) {
   Npz state;
@@ -242,9 +265,7 @@ std::vector<std::vector<double>> episodes_begun(const TrackingEnvironment& envir
 
 TEST(TrackingEnvironment, ReportsTheCharactersThatSwitchClips) {
   TrackingConfig config;
-  std::vector<std::shared_ptr<const TrackingClip>> clips;
-  for (int k = 0; k < 5; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
-  TrackingEnvironment environment(clips, config, 4 * physics::kLanes, 2 * physics::kLanes, 3);
+  TrackingEnvironment environment(short_clips(5), config, 4 * physics::kLanes, 2 * physics::kLanes, 3);
   std::size_t moved = 0;
   for (int iteration = 0; iteration < 32; ++iteration) {
     auto expected = episodes_begun(environment);
@@ -308,35 +329,16 @@ TEST(TrackingEnvironment, HasAsManyAgentsAsTheArrangementNames) {
 
 TEST(TrackingEnvironment, PacksTakeTurnsOverMoreClipsThanPacks) {
   TrackingConfig config;
-  std::vector<std::shared_ptr<const TrackingClip>> clips;
-  for (int k = 0; k < 5; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
-  TrackingEnvironment environment(clips, config, 2 * physics::kLanes, physics::kLanes, 3);
-  List<std::int64_t> visits(5, 0);
-  StepResult result(physics::kLanes, kStateSize);
-  for (int iteration = 0; iteration < 64; ++iteration) {
-    for (int g = 0; g < 2; ++g) environment.step(g, nn::Matrix<float>::Zero(physics::kLanes, kDofs), result);
-    environment.end_iteration();
-    for (int c = 0; c < 5; ++c)
-      for (const std::int64_t n : environment.statistics().visits[c]) visits[c] += n;
-  }
+  TrackingEnvironment environment(short_clips(5), config, 2 * physics::kLanes, physics::kLanes, 3);
+  const List<std::int64_t> visits = visits_after(64, environment);
   for (int c = 0; c < 5; ++c) EXPECT_GE(visits[c], 16 * physics::kLanes) << "clip " << c;
 }
 
 TEST(TrackingEnvironment, FewerClipsThanPacksHaveEqualShares) {
   TrackingConfig config;
-  std::vector<std::shared_ptr<const TrackingClip>> clips;
-  for (int k = 0; k < 3; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
-  TrackingEnvironment environment(clips, config, 4 * physics::kLanes, 2 * physics::kLanes, 3);
-  List<std::int64_t> visits(3, 0);
-  StepResult result(2 * physics::kLanes, kStateSize);
+  TrackingEnvironment environment(short_clips(3), config, 4 * physics::kLanes, 2 * physics::kLanes, 3);
   constexpr int kIterations = 3 * 16;  // every pack has followed every clip for as many
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    for (int g = 0; g < 2; ++g)
-      environment.step(g, nn::Matrix<float>::Zero(2 * physics::kLanes, kDofs), result);
-    environment.end_iteration();
-    for (int c = 0; c < 3; ++c)
-      for (const std::int64_t n : environment.statistics().visits[c]) visits[c] += n;
-  }
+  const List<std::int64_t> visits = visits_after(kIterations, environment);
   for (const std::int64_t n : visits)
     EXPECT_NEAR(static_cast<double>(n), 64.0 * physics::kLanes, 4.0 * physics::kLanes);
 }
