@@ -1,21 +1,32 @@
 #!/usr/bin/env python3
-"""tools/paper: its means, and what it says of a training; tools/results: what it writes into a page.
+"""tools/paper: its means, and what it says of a training; tools/results: what it writes into a page; runs made once.
 
     paper_test.py TOOLS
 """
+import contextlib
 import importlib.machinery
 import importlib.util
+import io
 import pathlib
-import subprocess
+import re
 import sys
 import tempfile
 import unittest
 
 TOOLS = pathlib.Path(sys.argv.pop(1))
 sys.dont_write_bytecode = True
-loader = importlib.machinery.SourceFileLoader("paper", str(TOOLS / "paper"))
-paper = importlib.util.module_from_spec(importlib.util.spec_from_loader("paper", loader))
-loader.exec_module(paper)
+sys.path.insert(0, str(TOOLS))
+
+
+def loaded(name):
+    loader = importlib.machinery.SourceFileLoader(name, str(TOOLS / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+paper, results = loaded("paper"), loaded("results")
+table_runs = sys.modules["table_runs"]
 
 
 class Means(unittest.TestCase):
@@ -48,29 +59,51 @@ class Means(unittest.TestCase):
 
 
 class Results(unittest.TestCase):
-    def results(self, text, **tables):
+    def written(self, page, **tables):
         with tempfile.TemporaryDirectory() as folder:
-            page = pathlib.Path(folder, "page.md")
-            page.write_text(text)
             for name, table in tables.items():
                 pathlib.Path(folder, f"{name}.md").write_text(table)
-            done = subprocess.run([TOOLS / "results", folder, page], capture_output=True, text=True, check=False)
-            return done, page.read_text()
+            return results.in_marks(page, [pathlib.Path(folder)])
 
     def test_tables_are_written_between_their_marks_again_and_again(self):
         page = "a\n<!-- table1.md -->\nold\n<!-- end of table1.md -->\nb\n"
         for _ in range(2):
-            done, page = self.results(page, table1="`command`\n\n| x |\n|---|\n")
-            self.assertEqual(done.returncode, 0)
+            page = self.written(page, table1="`command`\n\n| x |\n|---|\n")
             self.assertEqual(page, "a\n<!-- table1.md -->\n`command`\n\n| x |\n|---|\n<!-- end of table1.md -->\nb\n")
+
+    def test_the_output_of_a_program_keeps_its_lines(self):
+        output = "```\n" + 50 * "ab  " + "\nc\n```"
+        page = self.written("<!-- speed.md -->\n<!-- end of speed.md -->\n", speed=output)
+        self.assertEqual(page, f"<!-- speed.md -->\n{output}\n<!-- end of speed.md -->\n")
 
     def test_a_missing_table_stays_and_a_quick_one_is_refused(self):
         page = "<!-- table1.md -->\nold\n<!-- end of table1.md -->\n"
-        done, text = self.results(page)
-        self.assertEqual((done.returncode, text), (0, page))
-        self.assertIn("table1.md is missing", done.stderr)
-        done, text = self.results(page, table1="tools/paper 1 --quick")
-        self.assertEqual((done.returncode, text), (1, page))
+        with contextlib.redirect_stderr(io.StringIO()) as words:
+            self.assertEqual(self.written(page), page)
+        self.assertIn("table1.md is not made", words.getvalue())
+        with self.assertRaises(SystemExit):
+            self.written(page, table1="tools/paper 1 --quick")
+
+    def test_every_table_between_marks_can_be_made(self):
+        made = {*results.TABLES, "table1", "table2", "table3"}
+        for page in results.PAGES:
+            self.assertLessEqual(set(re.findall(r"<!-- (\w+)\.md -->", page.read_text())), made)
+        for table in results.TABLES:
+            self.assertTrue(callable(getattr(results.Results, table)))
+
+
+class MadeOnce(unittest.TestCase):
+    def test_a_run_is_made_once_and_every_version_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program, out = pathlib.Path(folder, "program"), pathlib.Path(folder, "out")
+            for version in ("one", "two"):
+                program.write_text(f'#!/bin/sh\nif [ "$1" = --version ]; then echo {version}; else mkdir -p "$3"; echo {version} >> "$3/made"; fi\n')
+                program.chmod(0o755)
+                runs = table_runs.Runs(program, out)
+                with contextlib.redirect_stderr(io.StringIO()):
+                    runs.run(out / "plan", "plan", "--out", out / "plan")
+            self.assertEqual((out / "plan/made").read_text(), "one\n")
+            self.assertEqual(runs.version, "one and two")
 
 
 unittest.main()

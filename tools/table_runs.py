@@ -1,0 +1,71 @@
+"""What tools/paper and tools/results share: runs of mimicx that are made once, and the cells of their tables."""
+import json
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+
+def call(*arguments, statuses=(0, 1)):
+    """Runs a program and returns its seconds of processor time. Status 1: a motion was not followed, which is a result."""
+    print(*(pathlib.Path(arguments[0]).name, *arguments[1:]), file=sys.stderr)
+    process = subprocess.Popen(list(map(str, arguments)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    words = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    if os.waitstatus_to_exitcode(status) not in statuses:
+        sys.exit(f"{words}{arguments[1]} ended with status {os.waitstatus_to_exitcode(status)}")
+    return usage.ru_utime + usage.ru_stime
+
+
+def spread(values, digits=None):
+    """Mean ± standard error."""
+    values = [math.inf if v is None else v for v in values]
+    if any(map(math.isinf, values)):
+        return "never" if all(map(math.isinf, values)) else ", ".join("never" if math.isinf(v) else f"{v:.0f}" for v in values)
+    mean = statistics.mean(values)
+    if digits is None:
+        digits = 1 if abs(mean) >= 10 else 2 if abs(mean) >= 0.01 else 4
+    error = f" ± {statistics.stdev(values) / math.sqrt(len(values)):.{digits}f}" if len(values) > 1 else ""
+    return f"{mean:.{digits}f}{error}"
+
+
+def markdown(head, rows):
+    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"] + ["| " + " | ".join(r) + " |" for r in rows])
+
+
+class Runs:
+    """A folder of runs that are made once. The file `versions` in it names every program that made one of them."""
+
+    def __init__(self, program, out):
+        self.program, self.out = program, out
+        version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+        out.mkdir(parents=True, exist_ok=True)
+        file = out / "versions"
+        versions = file.read_text().splitlines() if file.exists() else []
+        if version not in versions:
+            versions.append(version)
+            file.write_text("\n".join(versions) + "\n")
+        self.version = " and ".join(versions)
+
+    def run(self, out, *arguments):
+        """Runs mimicx into the folder unless it has been, and leaves its seconds of processor time beside it."""
+        done = out.parent / (out.name + ".seconds")
+        if not done.exists():
+            out.parent.mkdir(parents=True, exist_ok=True)
+            done.write_text(f"{call(self.program, *arguments, '--out', out):.2f}\n")
+        return out
+
+    def scores(self, truth, motions):
+        """{name: {metric: value}} of the motions in a folder, by `mimicx evaluate`; beside it, made once."""
+        table = motions.with_suffix(".scores.json")
+        if not table.exists():
+            call(self.program, "evaluate", "--truth", truth, "--motions", motions, "--json", table)
+        return {m["name"]: {k: v["value"] for k, v in m["metrics"].items()}
+                for m in json.loads(table.read_text())["motions"] if m["status"] == "ok"}
+
+    @staticmethod
+    def entries(run):
+        """{name: entry} of a run's manifest."""
+        return {e["name"]: e for e in json.loads((run / "manifest.json").read_text())["sequences"]}
