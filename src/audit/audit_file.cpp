@@ -1,10 +1,7 @@
 #include "audit/audit_file.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
-
 #include "audit/audit_summary.h"
+#include "core/number_text.h"
 #include "files/archive_members.h"
 #include "motion/clip_file.h"
 #include "record/json.h"
@@ -95,31 +92,24 @@ std::string evidence_name(Evidence evidence) {
 }
 
 std::string audit_table_head() {
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "%-28s %-18s %22s %24s %15s %12s %13s %9s\n%-28s %-18s %22s %24s %15s %12s %13s %9s\n",
-                "motion", "evidence", "unexplained root force", "unexplained root moment", "joint torque",
-                "friction", "", "work", "", "", "mean     max at", "mean      max at", "gap  bound", "beyond",
-                "pull   air", "+ J");
-  return text;
+  return formatted("%-28s %-18s %22s %24s %15s %12s %13s %9s\n%-28s %-18s %22s %24s %15s %12s %13s %9s\n",
+                   "motion", "evidence", "unexplained root force", "unexplained root moment", "joint torque",
+                   "friction", "", "work", "", "", "mean     max at", "mean      max at", "gap  bound",
+                   "beyond", "pull   air", "+ J");
 }
 
 std::string format_audit(const std::string& path, const Audit& audit) {
   const NamedValues values = summary_of(audit);
   const auto value = [&](const char* name) { return value_of(values, name); };
-  char text[400];
-  std::snprintf(text, sizeof text, "%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f",
+  std::string line =
+      formatted("%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f",
                 std::filesystem::path(path).stem().string().c_str(), evidence_name(audit.evidence).c_str(),
                 value("root_force_mean_N"), value("root_force_max_N"), value("root_force_worst"),
                 value("root_moment_mean_Nm"), value("root_moment_max_Nm"), value("root_moment_worst"));
-  std::string line = text;
-  if (audit.evidence != Evidence::kPosesAlone) {
-    std::snprintf(text, sizeof text, " %8.3g %4.0f %% %10.2g %% %6.2g %4.2g %% %9.0f",
-                  value("torque_gap_mean_Nm"), 100.0 * value("torque_worst_share"),
-                  value("beyond_cone_percent"), value("pull_percent"), value("in_air_percent"),
-                  value("work_positive_J"));
-    line += text;
-  }
+  if (audit.evidence != Evidence::kPosesAlone)
+    line += formatted(" %8.3g %4.0f %% %10.2g %% %6.2g %4.2g %% %9.0f", value("torque_gap_mean_Nm"),
+                      100.0 * value("torque_worst_share"), value("beyond_cone_percent"),
+                      value("pull_percent"), value("in_air_percent"), value("work_positive_J"));
   line += "\n";
   for (const std::string& failure : audit.failures) line += "  FAILS: " + path + ": " + failure + "\n";
   return line;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/number_text.h"
 #include "core/units.h"
 
 namespace mimicx::audit {
@@ -93,20 +93,13 @@ NamedValues force_summary(const Audit& audit) {
   return values;
 }
 
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
-  return text;
-}
+std::string percent(double share) { return formatted("%.3g %%", 100.0 * share); }
 
 /// The distance from the floor of a motion whose poses fail, in words.
 std::string where_it_stands(const NamedValues& values) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "no point within 1 cm of the floor in %.0f %% of the frames; lowest point %.0f to %.0f mm",
-                value_of(values, "untouched_percent"), value_of(values, "lowest_min_mm"),
-                value_of(values, "lowest_max_mm"));
-  return text;
+  return formatted("no point within 1 cm of the floor in %.0f %% of the frames; lowest point %.0f to %.0f mm",
+                   value_of(values, "untouched_percent"), value_of(values, "lowest_min_mm"),
+                   value_of(values, "lowest_max_mm"));
 }
 
 }  // namespace
@@ -117,11 +110,10 @@ std::vector<std::string> failures_of(const Audit& audit) {
   const NamedValues values = summary_of(audit);
   const auto check = [&](const std::string& what, const std::string& name, double limit, const char* unit) {
     const double value = value_of(values, name);
-    char text[160];
-    std::snprintf(text, sizeof text, "%s %.3g %s, %s of the weight%s; at most %s", what.c_str(), value, unit,
-                  percent(value / audit.weight).c_str(), unit[1] == '\0' ? "" : " times 1 m",
-                  percent(limit).c_str());
-    if (!(value <= limit * audit.weight)) failures.push_back(text);
+    if (value <= limit * audit.weight) return;
+    failures.push_back(formatted("%s %.3g %s, %s of the weight%s; at most %s", what.c_str(), value, unit,
+                                 percent(value / audit.weight).c_str(), unit[1] == '\0' ? "" : " times 1 m",
+                                 percent(limit).c_str()));
   };
   check("mean unexplained root force", "root_force_mean_N", limits.mean_force, "N");
   check("mean unexplained root moment", "root_moment_mean_Nm", limits.mean_moment, "N·m");

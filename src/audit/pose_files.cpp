@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
@@ -37,11 +37,7 @@ std::string field(const std::string& text) {
 }
 
 /// Six digits: poses are not more accurate.
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::isfinite(value) ? text : "";
-}
+std::string number(double value) { return std::isfinite(value) ? formatted("%.6g", value) : ""; }
 
 /// Names of the verdict's values, in their order.
 std::vector<std::string> value_names() {
@@ -96,22 +92,19 @@ void judge_poses(const std::vector<std::string>& paths, const PoseFilesConfig& c
 }
 
 std::string pose_table_head() {
-  char text[200];
-  std::snprintf(text, sizeof text, "%-28s %6s %16s %18s %10s  %s\n%-28s %6s %7s %8s %9s %8s %10s\n", "motion",
-                "frames", "force, N", "moment, N m", "infeasible", "longest stretch", "", "", "mean", "max",
-                "mean", "max", "%");
-  return text;
+  return formatted("%-28s %6s %16s %18s %10s  %s\n%-28s %6s %7s %8s %9s %8s %10s\n", "motion", "frames",
+                   "force, N", "moment, N m", "infeasible", "longest stretch", "", "", "mean", "max", "mean",
+                   "max", "%");
 }
 
 std::string format_poses(const PoseFile& file) {
   const auto value = [&](const char* name) { return value_of(file.verdict.values, name); };
-  char text[200];
-  std::snprintf(text, sizeof text, " %6.0f %7.1f %8.1f %9.2f %8.1f %10.1f  ", value("frames"),
-                value("force_mean_N"), value("force_max_N"), value("moment_mean_Nm"), value("moment_max_Nm"),
-                100.0 * value("infeasible_share"));
+  const std::string numbers = formatted(" %6.0f %7.1f %8.1f %9.2f %8.1f %10.1f  ", value("frames"),
+                                        value("force_mean_N"), value("force_max_N"), value("moment_mean_Nm"),
+                                        value("moment_max_Nm"), 100.0 * value("infeasible_share"));
   std::string name = std::filesystem::path(file.path).filename().string();
   name.resize(std::max<std::size_t>(name.size(), 28), ' ');
-  std::string line = name + text + file.verdict.words;
+  std::string line = name + numbers + file.verdict.words;
   if (!file.verdict.over_in_words.empty())
     line += "; torques over their bounds, frames: " + file.verdict.over_in_words;
   return line + '\n';

@@ -1,21 +1,14 @@
 #include "audit/pose_verdict.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "character/body_words.h"
 #include "core/elementary.h"
+#include "core/number_text.h"
 #include "core/units.h"
 
 namespace mimicx::audit {
 namespace {
-
-template <class... Args>
-std::string print(const char* format, Args... args) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
 
 /// Sums over the frames.
 struct Totals {
@@ -59,7 +52,7 @@ std::string joints_over(const PerBody<int>& over) {
   std::string text;
   for (int b = 1; b < kBodies; ++b)
     if (over[b] > 0)
-      text += print("%s%s:%d", text.empty() ? "" : " ", std::string(kBodyNames[b]).c_str(), over[b]);
+      text += formatted("%s%s:%d", text.empty() ? "" : " ", std::string(kBodyNames[b]).c_str(), over[b]);
   return text;
 }
 
@@ -72,9 +65,10 @@ std::string over_in_words(const PerBody<int>& over) {
 
 std::string words_for(const PoseNeeds& needs, const Totals& sum, const Stretch& longest) {
   if (longest.wrong == Wrong::kNothing)
-    return print("feasible: at most %.0f N and %.0f N m from outside", sum.largest_force, sum.largest_moment);
+    return formatted("feasible: at most %.0f N and %.0f N m from outside", sum.largest_force,
+                     sum.largest_moment);
   const double share = 100.0 * sum.infeasible / needs.frames.count();
-  return in_words(longest) + print("; %.0f %% of the frames are infeasible", share);
+  return in_words(longest) + formatted("; %.0f %% of the frames are infeasible", share);
 }
 
 }  // namespace
@@ -121,24 +115,24 @@ std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs) {
 
 std::string in_words(const Stretch& stretch) {
   const std::string frames = stretch.first == stretch.last
-                                 ? print("frame %d: ", stretch.first)
-                                 : print("frames %d-%d: ", stretch.first, stretch.last);
+                                 ? formatted("frame %d: ", stretch.first)
+                                 : formatted("frames %d-%d: ", stretch.first, stretch.last);
   switch (stretch.wrong) {
     case Wrong::kHovers:
-      return frames + print("the body hovers; %.0f N would have to hold it", stretch.force);
+      return frames + formatted("the body hovers; %.0f N would have to hold it", stretch.force);
     case Wrong::kPulled:
       return frames +
-             print("the body sinks faster than it falls; %.0f N would have to pull it", stretch.force);
+             formatted("the body sinks faster than it falls; %.0f N would have to pull it", stretch.force);
     case Wrong::kDrifts:
-      return frames + print("the body drifts in the air; %.0f N would have to push it", stretch.force);
+      return frames + formatted("the body drifts in the air; %.0f N would have to push it", stretch.force);
     case Wrong::kTurns:
-      return frames + print("the body turns in the air; %.0f N m would have to turn it", stretch.moment);
+      return frames + formatted("the body turns in the air; %.0f N m would have to turn it", stretch.moment);
     case Wrong::kSlips:
-      return frames + print("the body would slip; %.0f N would have to push it", stretch.force);
+      return frames + formatted("the body would slip; %.0f N would have to push it", stretch.force);
     case Wrong::kTipsOver:
-      return frames + print("the body tips over; %.0f N m would have to hold it", stretch.moment);
+      return frames + formatted("the body tips over; %.0f N m would have to hold it", stretch.moment);
     case Wrong::kSunk:
-      return frames + print("the body is %.0f mm in the floor", kMm * stretch.depth);
+      return frames + formatted("the body is %.0f mm in the floor", kMm * stretch.depth);
     default:
       return frames + "nothing is wrong";
   }

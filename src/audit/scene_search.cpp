@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "audit/friction_cones.h"
 #include "audit/pose_needs.h"
 #include "core/elementary.h"
+#include "core/number_text.h"
 #include "core/quantile.h"
 #include "core/units.h"
 
@@ -308,10 +308,8 @@ Eigen::Vector2d toes_of(const SupportedMotion& e, const Group& group) {
 
 std::string plate_in_words(const char* what, double height, const char* under, int first, int last,
                            double carried) {
-  char text[200];
-  std::snprintf(text, sizeof text, "a %s of %.2f m under the %s, frames %d to %d: %.2f of the weight", what,
-                height, under, first, last, carried);
-  return text;
+  return formatted("a %s of %.2f m under the %s, frames %d to %d: %.2f of the weight", what, height, under,
+                   first, last, carried);
 }
 
 /// The steps of a flight rise equally (building codes allow a centimetre between them), which says more of

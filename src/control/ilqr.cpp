@@ -1,8 +1,6 @@
 #include "control/ilqr.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 
 #include "control/shooting.h"

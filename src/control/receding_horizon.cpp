@@ -1,7 +1,6 @@
 #include "control/receding_horizon.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "control/shooting.h"

@@ -1,7 +1,6 @@
 #include "control/shooting.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 namespace mimicx::control {

@@ -1,7 +1,6 @@
 #include "control/sole_slip.h"
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 
 #include "physics/contact.h"

@@ -53,6 +53,17 @@ std::error_code last_error() { return {errno == 0 ? EIO : errno, std::generic_ca
 
 }  // namespace
 
+std::string read_bytes(const std::filesystem::path& path, std::size_t at, std::size_t count) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return {};  // to open a pipe would wait for a writer
+  std::string bytes(count, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(at));
+  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (!path.empty()) std::filesystem::create_directories(path, error);

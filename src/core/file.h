@@ -18,6 +18,9 @@ inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
 ///         `max_bytes` (nothing is read in that case)
 std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes = kMaxFileBytes);
 
+/// `count` bytes of a regular file from byte `at` on, or as many as it has; none of anything else.
+std::string read_bytes(const std::filesystem::path& path, std::size_t at, std::size_t count);
+
 /// Creates a folder and its missing parents. @throws DataError if that fails
 void make_folder(const std::filesystem::path& path);
 

@@ -16,6 +16,9 @@ std::optional<double> number_from(std::string_view text);
 /// The fewest digits that read back as the same number.
 std::string text_of(double value);
 
+/// What printf writes, of any length.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 /// The text, padded with blanks at its end to at least `width` characters.
 std::string padded(std::string text, std::size_t width);
 

@@ -4,7 +4,6 @@
 /// Writing in float32 keeps the simulator's own numbers exactly.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <type_traits>

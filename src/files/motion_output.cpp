@@ -1,8 +1,6 @@
 #include "files/motion_output.h"
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 #include "files/archive_members.h"
 #include "motion/clip_file.h"

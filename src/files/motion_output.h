@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "files/archive_members.h"
 #include "motion/clip.h"

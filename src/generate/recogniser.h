@@ -12,7 +12,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "generate/pose_numbers.h"
 #include "nn/mlp.h"

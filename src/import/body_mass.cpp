@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "character/standard_body.h"
+#include "core/number_text.h"
 
 namespace mimicx::import {
 namespace {
@@ -20,12 +20,9 @@ BodyLengths lengths_of_shape(const std::array<double, kBetas>& betas) {
 
 std::string decision_of(const char* why, double wanted, const std::array<double, kBetas>& betas) {
   const double mass = make_character(betas).total_mass();
-  char text[200];
-  const int length = std::snprintf(text, sizeof text, "mass: %.1f kg, %s", mass, why);
-  std::string decision(text, static_cast<std::size_t>(length));
+  std::string decision = formatted("mass: %.1f kg, %s", mass, why);
   if (std::abs(mass - wanted) < 0.05) return decision;
-  std::snprintf(text, sizeof text, " (our body cannot have %.1f kg at its size)", wanted);
-  return decision + text;
+  return decision + formatted(" (our body cannot have %.1f kg at its size)", wanted);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "import/body_model.h"
 
-#include <cmath>
-
 namespace mimicx::import {
 namespace {
 

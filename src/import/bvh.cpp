@@ -217,8 +217,4 @@ SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& pat
   return motion;
 }
 
-SkeletonMotion read_bvh(const std::filesystem::path& path, const BvhConfig& config) {
-  return parse_bvh(read_text(path), path, config);
-}
-
 }  // namespace mimicx::import

@@ -24,9 +24,8 @@ struct BvhConfig {
   bool radians = false;  ///< the file's rotations are radians, not degrees
 };
 
+/// @param path  for messages; its stem is the motion's name
 /// @throws DataError naming file and line
-SkeletonMotion read_bvh(const std::filesystem::path& path, const BvhConfig& config = {});
-/// The same from text in memory. @param path  for messages; its stem is the motion's name
 SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& path,
                          const BvhConfig& config = {});
 

@@ -1,21 +1,18 @@
 #include "import/bvh_write.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "core/elementary.h"
+#include "core/number_text.h"
 #include "core/units.h"
 
 namespace mimicx::import {
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9f", value == 0.0 ? 0.0 : value);  // no "-0"
-  return text;
+  return formatted("%.9f", value == 0.0 ? 0.0 : value);  // no "-0"
 }
 
 std::string triple(const Vector3d& v) { return number(v.x()) + ' ' + number(v.y()) + ' ' + number(v.z()); }
@@ -71,9 +68,7 @@ std::string format_bvh(const motion::Clip& clip) {
   std::string out = "HIERARCHY\n";
   std::vector<int> order;
   write_joint(character, kPelvis, 0, out, order);
-  char line[64];
-  std::snprintf(line, sizeof line, "MOTION\nFrames: %d\nFrame Time: %.12f\n", clip.frames(), 1.0 / clip.fps);
-  out += line;
+  out += formatted("MOTION\nFrames: %d\nFrame Time: %.12f\n", clip.frames(), 1.0 / clip.fps);
   PerBody<Vector3d> angles;
   angles.fill(Vector3d::Zero());
   const auto rotations = motion::joint_rotations(clip);

@@ -1,7 +1,6 @@
 #include "import/clip_checks.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/quantile.h"
 #include "import/landmarks.h"

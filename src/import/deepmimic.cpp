@@ -178,8 +178,4 @@ SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::pat
   return motion;
 }
 
-SkeletonMotion read_deepmimic(const std::filesystem::path& path) {
-  return parse_deepmimic(read_text(path), path);
-}
-
 }  // namespace mimicx::import

@@ -20,10 +20,9 @@
 
 namespace mimicx::import {
 
-/// @throws DataError naming file and line
-SkeletonMotion read_deepmimic(const std::filesystem::path& path);
-/// The same from text in memory. @param path  for messages; its stem is the motion's name
+/// @param path  for messages; its stem is the motion's name
 /// @param fps  the frame rate, whatever the durations say; none: that of the file
+/// @throws DataError naming file and line
 SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path,
                                const std::optional<double>& fps = {});
 

@@ -2,7 +2,6 @@
 /// unit, axes or rest pose.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "import/retarget/joint_names.h"

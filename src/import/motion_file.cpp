@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -357,27 +356,13 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
   throw DataError(path.string(), "", kMotions, content_in_words(bytes));
 }
 
-/// The first bytes of a file. None for a pipe, because opening it would wait for a writer.
-std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return {};
-  std::string bytes(count, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
-}
-
 }  // namespace
 
 std::string ReadConfig::text() const {
   std::string out;
   const auto add = [&](const std::string& what) { out += (out.empty() ? "" : " ") + what; };
   const auto number = [&](const char* name, const std::optional<double>& value) {
-    char digits[64];
-    if (!value) return;
-    std::snprintf(digits, sizeof digits, "%s=%.17g", name, *value);
-    add(digits);
+    if (value) add(formatted("%s=%.17g", name, *value));
   };
   if (up) add("up=" + axis_name(*up));
   number("scale", scale);
@@ -461,14 +446,14 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
 }
 
 bool holds_positions(const std::filesystem::path& path) {
-  const std::string start = first_bytes(path, kHeaderBytes);
+  const std::string start = read_bytes(path, 0, kHeaderBytes);
   return recognise(start) == MotionFormat::kNpy && is_positions(header_shape(start));
 }
 
 bool is_motion_file(const std::filesystem::path& path) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".txt") {
-    const MotionFormat format = recognise(first_bytes(path, kFirstBytes));
+    const MotionFormat format = recognise(read_bytes(path, 0, kFirstBytes));
     return format == MotionFormat::kDeepMimic || format == MotionFormat::kBvh;
   }
   return is_written(suffix) || suffix == ".trc";

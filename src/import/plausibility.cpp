@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "core/number_text.h"
 #include "core/quantile.h"
 #include "motion/surface_points.h"
 
@@ -28,11 +28,7 @@ double finite_quantile(std::vector<double> values, double share) {
   return values.empty() ? 0.0 : quantile(std::move(values), share);
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string short_number(double value) { return formatted("%.3g", value); }
 
 double support_speed(const PerFrame<BodyPoses>& poses, double fps) {
   std::vector<double> stillest;

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -51,9 +50,7 @@ std::string escaped_name(std::string_view name) {
   std::string out;
   while (!name.empty()) {
     const std::size_t length = sequence_length(name);
-    char number[8];
-    std::snprintf(number, sizeof number, "\\x%02x", static_cast<unsigned char>(name[0]));
-    out += length == 0 ? number : name.substr(0, length);
+    out += length == 0 ? formatted("\\x%02x", static_cast<unsigned char>(name[0])) : name.substr(0, length);
     name.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out;

@@ -1,6 +1,5 @@
 #include "judge/choice.h"
-
-#include <cstdio>
+#include "core/number_text.h"
 
 namespace mimicx::judge {
 
@@ -16,10 +15,7 @@ bool better(const Candidate& a, const Candidate& b) {
 }
 
 std::string in_words(const Candidate& candidate) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s, MPJPE %.1f mm", candidate.success ? "success" : "no success",
-                candidate.mpjpe_mm);
-  return text;
+  return formatted("%s, MPJPE %.1f mm", candidate.success ? "success" : "no success", candidate.mpjpe_mm);
 }
 
 }  // namespace mimicx::judge

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/error.h"
@@ -52,17 +51,13 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const 
 }
 
 std::string metric_cell(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, " %9.2f", value);
-  return std::isfinite(value) ? text : "         -";
+  return std::isfinite(value) ? formatted(" %9.2f", value) : "         -";
 }
 
 std::string titles() {
   std::string text;
   for (const auto& d : motion::metric_definitions()) {
-    char title[32];
-    std::snprintf(title, sizeof title, " %9s", d.name);
-    text += title;
+    text += formatted(" %9s", d.name);
   }
   return text;
 }

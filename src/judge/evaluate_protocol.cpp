@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/error.h"
 #include "core/number_text.h"
@@ -34,11 +33,8 @@ ProtocolRow row_of(motion::Protocol protocol, const std::string& name, const Pai
 
 std::string cells(const std::vector<motion::MetricValue>& values) {
   std::string line;
-  for (const motion::MetricValue& v : values) {
-    char text[32];
-    std::snprintf(text, sizeof text, " %11.2f", v.value);
-    line += std::isfinite(v.value) ? text : "           -";
-  }
+  for (const motion::MetricValue& v : values)
+    line += std::isfinite(v.value) ? formatted(" %11.2f", v.value) : "           -";
   return line;
 }
 
@@ -91,11 +87,8 @@ std::string format_protocol(const std::vector<ProtocolTable>& tables) {
   const auto& columns = motion::protocol_columns(tables.front().protocol);
   std::string names = padded("", width), units = names;
   for (const motion::ProtocolColumn& column : columns) {
-    char text[64];
-    std::snprintf(text, sizeof text, " %11s", column.name);
-    names += text;
-    std::snprintf(text, sizeof text, " %11s", column.unit);
-    units += text;
+    names += formatted(" %11s", column.name);
+    units += formatted(" %11s", column.unit);
   }
   std::string text = names + '\n' + units + '\n';
   for (const ProtocolTable& table : tables) {

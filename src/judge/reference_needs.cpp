@@ -1,9 +1,9 @@
 #include "judge/reference_needs.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "audit/pose_verdict.h"
+#include "core/number_text.h"
 
 namespace mimicx::judge {
 namespace {
@@ -50,14 +50,11 @@ std::string assistance_in_words(const PerFrame<Vector6d>& assistance, double mas
   last = std::min(last, assistance.count() - 1);
   if (first > last) return "";
   const Total total = total_of(assistance, first, last);
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
+  return formatted(
       "with assistive forces the body passes frames %d-%d: at most %.0f N (%.1f m/s2) at frame %d and %.0f N "
       "(%.1f m/s2) on average push the pelvis, at most %.0f N m turn it",
       first, last, total.largest, total.largest / mass, total.worst, total.mean, total.mean / mass,
       total.largest_moment);
-  return text;
 }
 
 record::FrameFeasibility frame_feasibility(const audit::PoseNeeds& needs,

@@ -5,17 +5,6 @@
 #include "motion/resample.h"
 
 namespace mimicx::judge {
-namespace {
-
-/// The first `frames` frames.
-motion::MotionSamples head_of(motion::MotionSamples samples, std::size_t frames) {
-  samples.joints.resize(frames);
-  samples.surface.resize(frames);
-  samples.self_depth.resize(frames);
-  return samples;
-}
-
-}  // namespace
 
 motion::MotionSamples samples_at(const motion::Clip& clip, double rate) {
   return motion::sample_motion(motion::character_of(clip), motion::poses_of(motion::resampled(clip, rate)),
@@ -49,7 +38,7 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
       motion::sample_motion(character, poses, reference.fps, reference.scene);
   const motion::MotionSamples asked =
       motion::sample_motion(character, reference.poses, reference.fps, reference.scene);
-  const motion::MotionSamples same_length = head_of(asked, simulated.joints.size());
+  const motion::MotionSamples same_length = head_of(asked, simulated.frames());
   Scores scores;
   motion::Metrics metrics = motion::evaluate_motion(simulated, &same_length);
   judge_forces({character, poses, ground_of(rollout), reference.fps, reference.scene}, metrics);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "audit/pose_verdict.h"
+#include "core/number_text.h"
 #include "core/units.h"
 #include "judge/force_metrics.h"
 #include "judge/headline.h"
@@ -159,9 +159,7 @@ std::string cause(const Headline& h, const std::vector<Frames>& stretches, const
 }
 
 std::string printed(const Headline& h, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", h.decimals, h.scale * value);
-  return text;
+  return formatted("%.*f", h.decimals, h.scale * value);
 }
 
 /// Whether the printed number is larger than the input's.

@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "core/elementary.h"
+#include "core/number_text.h"
 
 namespace mimicx::motion {
 namespace {
@@ -17,11 +17,7 @@ constexpr double kPixelFocal = 10.0;  ///< focal lengths above this are in pixel
 constexpr double kPercent = 1.5;      ///< confidences above this are in percent
 constexpr double kNoRotation = 0.01;  ///< largest deviation of RᵀR and of the scale
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return formatted("%.4g", value); }
 
 template <class Each>
 void for_each_detection(Keypoints& k, const Each& each) {

@@ -1,11 +1,11 @@
 #include "motion/metrics.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 
 #include "character/body_words.h"
 #include "core/elementary.h"
+#include "core/number_text.h"
 #include "core/units.h"
 #include "motion/closest_points.h"
 #include "motion/procrustes.h"
@@ -141,17 +141,11 @@ double self_depth(const Character& character, const BodyPoses& poses) {
   return depth.count == 0 ? 0.0 : depth.times(1.0).value;
 }
 
-std::string rounded(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
+std::string rounded(double value, int digits) { return formatted("%.*f", digits, value); }
 
 /// "300 frames at 30 fps"
 std::string lasting(const MotionSamples& samples) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%d frames at %.4g fps", samples.frames(), samples.fps);
-  return text;
+  return formatted("%d frames at %.4g fps", samples.frames(), samples.fps);
 }
 
 }  // namespace
@@ -167,6 +161,13 @@ MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses
     samples.surface.push_back(surface_positions(points, pose));
     samples.self_depth.push_back(self_depth(character, pose));
   }
+  return samples;
+}
+
+MotionSamples head_of(MotionSamples samples, int frames) {
+  samples.joints.resize(frames);
+  samples.surface.resize(frames);
+  samples.self_depth.resize(static_cast<std::size_t>(frames));
   return samples;
 }
 

@@ -40,6 +40,9 @@ struct MotionSamples {
 MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
                             const Scene& scene = {});
 
+/// The first `frames` frames.
+MotionSamples head_of(MotionSamples samples, int frames);
+
 struct MetricValue {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::size_t count = 0;  ///< samples it is a mean of

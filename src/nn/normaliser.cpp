@@ -1,7 +1,6 @@
 #include "nn/normaliser.h"
 
 #include <cassert>
-#include <cmath>
 
 namespace mimicx::nn {
 

@@ -13,8 +13,6 @@
 
 #include <array>
 #include <deque>
-#include <span>
-#include <vector>
 
 #include "nn/matrix.h"
 

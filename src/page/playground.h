@@ -11,7 +11,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "audit/audit.h"
 #include "files/plan_file.h"

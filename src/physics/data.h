@@ -3,8 +3,6 @@
 /// Everything is in world-parallel axes unless its comment names a body frame. Index = body.
 #pragma once
 
-#include <array>
-
 #include "physics/model.h"
 
 namespace mimicx::physics {

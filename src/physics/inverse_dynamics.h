@@ -10,8 +10,6 @@
 /// requires beside them, zero if the given wrenches explain the motion. It has no contact, limits or control.
 #pragma once
 
-#include <array>
-
 #include "character/character.h"
 
 namespace mimicx::physics {

@@ -15,7 +15,6 @@
 /// spine. A standing character has the root quaternion (√½, √½, 0, 0).
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 

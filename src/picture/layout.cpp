@@ -1,10 +1,10 @@
 #include "picture/layout.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
+
+#include "core/number_text.h"
 
 namespace mimicx::picture {
 namespace {
@@ -31,11 +31,7 @@ NaturalSize natural_size(Kind kind) {
 
 bool is_beside(Kind kind) { return kind == Kind::kStill || kind == Kind::kAnimation; }
 
-std::string in_seconds(double time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f s", time);
-  return text;
-}
+std::string in_seconds(double time) { return formatted("%.2f s", time); }
 
 /// @throws std::invalid_argument
 TimeSpan common_stretch(const List<PosedMotion>& motions, const PictureConfig& config) {

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "core/file.h"
-#include "record/former_settings.h"
 #include "record/outputs.h"
 
 namespace mimicx::pipeline {
@@ -24,22 +23,16 @@ record::Json json_or_null(const std::filesystem::path& path) {
   }
 }
 
-/// Whether a member that today's records lack may stand in one: earlier budgets (`let_budget_grow`), and a
-/// setting that is a constant today and has that value there.
-bool may_be_missing(const std::string& name, const record::Json& value) {
-  return name == "earlier_samples" ||
-         (value.is_number() && record::is_former_default(name, value.get<double>()));
-}
-
 /// The first member, by its path, in which two records differ: "settings/gamma is 0.9 there, 0.92 here".
+/// Earlier budgets (`let_budget_grow`) are no difference.
 std::string first_difference(const record::Json& there, const record::Json& here) {
   if (!there.is_object() || !here.is_object())
     return there == here ? "" : " is " + short_text(there) + " there, " + short_text(here) + " here";
   for (const auto& [name, value] : here.items())
-    if (const std::string found = first_difference(record::former_member(there, name), value); !found.empty())
+    if (const std::string found = first_difference(there.value(name, record::Json()), value); !found.empty())
       return name + (found.starts_with(' ') ? "" : "/") + found;
   for (const auto& [name, value] : there.items())
-    if (!here.contains(name) && !may_be_missing(name, value))
+    if (!here.contains(name) && name != "earlier_samples")
       return name + " is " + short_text(value) + " there, not set here";
   return {};
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/file.h"
 #include "core/npz/npz.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "motion/metrics.h"
 #include "pipeline/training_log.h"
@@ -124,10 +124,7 @@ void resume(Trainer& trainer, const TrainingFiles& files, TrainingState& state) 
 }
 
 std::string detail_of(const rl::IterationStats& s) {
-  char text[64];
-  std::snprintf(text, sizeof text, "reward %.3f, episodes of %.0f steps", s.mean_reward,
-                s.mean_episode_length);
-  return text;
+  return formatted("reward %.3f, episodes of %.0f steps", s.mean_reward, s.mean_episode_length);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "plan/plan_failure.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "audit/pose_verdict.h"
 #include "character/body_words.h"
+#include "core/number_text.h"
 
 namespace mimicx::plan {
 namespace {
@@ -15,13 +15,6 @@ constexpr int kFramesBefore = 30;
 constexpr int kFramesAfter = 15;
 constexpr double kHoldingForce = 150.0;  ///< N, of a self contact that holds the body …
 constexpr int kHeldFrames = 5;           ///< … in so many frames
-
-template <class... Args>
-std::string print(const char* format, Args... args) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
 
 /// The two bodies that push each other hardest in frames first … last, if self contact holds the body there;
 /// else nothing.
@@ -44,8 +37,8 @@ std::string self_contact_in_words(const std::vector<rl::tracking::ActingForces>&
   const int one = static_cast<int>(hardest - largest.begin());
   *hardest = 0.0;
   const int other = static_cast<int>(std::max_element(largest.begin(), largest.end()) - largest.begin());
-  return print("self contact holds the body: %s and %s push each other with up to %.0f N",
-               body_in_words(one).c_str(), body_in_words(other).c_str(), force);
+  return formatted("self contact holds the body: %s and %s push each other with up to %.0f N",
+                   body_in_words(one).c_str(), body_in_words(other).c_str(), force);
 }
 
 /// The infeasible stretches of the reference in frames first … last, in words.
@@ -62,10 +55,11 @@ std::string needs_in_words(const audit::PoseNeeds& needs, int first, int last) {
 std::string failure_in_words(const control::Failure& failure, const audit::PoseNeeds& needs,
                              const PerFrame<Vector6d>& assistance,
                              const std::vector<rl::tracking::ActingForces>& planned) {
-  std::string text = print("the plan fails at frame %d (%.2f s)", failure.frame, failure.frame / needs.fps);
+  std::string text =
+      formatted("the plan fails at frame %d (%.2f s)", failure.frame, failure.frame / needs.fps);
   if (failure.body >= 0)
-    text +=
-        print(": the %s is %.2f m from its reference", body_in_words(failure.body).c_str(), failure.distance);
+    text += formatted(": the %s is %.2f m from its reference", body_in_words(failure.body).c_str(),
+                      failure.distance);
   if (needs.frames.empty()) return text;
   const int first = std::max(failure.frame - kFramesBefore, 0);
   const int last = std::min(failure.frame, needs.frames.count() - 1);
@@ -74,7 +68,7 @@ std::string failure_in_words(const control::Failure& failure, const audit::PoseN
   for (const std::string& cause : {needed, held})
     if (!cause.empty()) text += "; " + cause;
   if (needed.empty() && held.empty())
-    text += print(
+    text += formatted(
         "; over frames %d to %d the reference needs next to nothing from outside: a body could follow "
         "it, and no way was found",
         first, last);

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "pipeline/options/arrangement.h"
 #include "pipeline/training_loop.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string_view>
 
 #include "core/setting.h"
 #include "fit/fit_config.h"
@@ -135,7 +134,7 @@ pipeline::PretrainConfig pretrain_configuration(const std::string& preset) {
   pipeline::TrainingConfig& training = config.training;
   training.samples = 80000000;
   training.characters = 512;
-  if (preset == "large") training.hidden = {1536, 1024, 512};
+  if (preset == "large") training.hidden = {1024, 1024, 1024, 256};
   training.evaluate_iterations = 100;
   training.ppo.sigma_end = 0.05;
   training.ppo.minibatch = 2048;

@@ -1,7 +1,5 @@
 #include "record/feasibility_file.h"
 
-#include <cmath>
-
 #include "core/error.h"
 #include "core/number_text.h"
 

@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "record/commit.h"
-#include "record/former_settings.h"
 #include "record/sequence_entry.h"
 #include "record/table.h"
 #include "record/utf8_names.h"
@@ -25,8 +24,7 @@ std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
                                                             {"samples", std::to_string(m.samples)},
                                                             {"options", m.options},
                                                             {"reading", m.reading}};
-  for (const auto& [name, value] : m.settings)
-    if (!is_former_default(name, value)) texts.emplace_back(name, format_number(value));
+  for (const auto& [name, value] : m.settings) texts.emplace_back(name, format_number(value));
   return texts;
 }
 
@@ -100,7 +98,7 @@ Manifest run_of(const Json& run) {
   manifest.target = run.at("target").get<std::string>();
   manifest.seed = run.at("seed");
   manifest.samples = run.at("samples");
-  manifest.method = current_method(run.value("method", "").get<std::string>());
+  manifest.method = run.value("method", "").get<std::string>();
   manifest.options = run.at("options").get<std::string>();
   manifest.reading = from_utf8(run.value("reading", "").get<std::string>());
   manifest.settings = named_values(run.at("settings"));

@@ -29,8 +29,7 @@ struct Manifest {
 
   /// The settings in which a run differs from another, each as "seed is 2 there, 1 here". Empty: their
   /// results may be in one folder.
-  /// Settings of earlier versions that are constants today (former_settings.h) make no difference where they
-  /// have that value. @param but_samples  ignore the budget
+  /// @param but_samples  ignore the budget
   std::vector<std::string> differences(const Manifest& there, bool but_samples = false) const;
   /// The entry of an input, or nullptr.
   const SequenceEntry* find(const std::string& input) const;

@@ -8,15 +8,6 @@
 namespace mimicx::record {
 namespace {
 
-std::string bytes_at(const std::filesystem::path& path, std::size_t at, std::size_t count) {
-  std::string bytes(count, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(at));
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
-}
-
 bool is_own_archive(const std::filesystem::path& path) {
   try {
     const std::string bytes = read_file(path);
@@ -34,7 +25,7 @@ bool is_there(const std::filesystem::path& path) {
 }  // namespace
 
 bool is_own_file(const std::filesystem::path& path, std::string_view opening, std::size_t at) {
-  return opening.empty() ? is_own_archive(path) : bytes_at(path, at, opening.size()) == opening;
+  return opening.empty() ? is_own_archive(path) : read_bytes(path, at, opening.size()) == opening;
 }
 
 Outputs::Outputs(const std::vector<std::string>& inputs, bool force) : force_(force) {

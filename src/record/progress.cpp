@@ -4,21 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <utility>
+
+#include "core/number_text.h"
 
 namespace mimicx::record {
 namespace {
 
 constexpr double kLivePeriod = 0.2;    // s
 constexpr double kPlainPeriod = 10.0;  // s
-
-template <class... Args>
-std::string print(const char* format, Args... args) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, args...);
-  return buffer;
-}
 
 }  // namespace
 
@@ -42,7 +36,7 @@ void Progress::update(double done, const std::string& detail) {
   const double elapsed = now - started_;
   const double rate = elapsed > 0.0 ? (done - done_at_start_) / elapsed : 0.0;
   std::string line = label_ + "  " + format_count(done) + " of " + format_count(total_) + " " + unit_ + "  " +
-                     print("%.0f %%", total_ > 0.0 ? 100.0 * done / total_ : 100.0);
+                     formatted("%.0f %%", total_ > 0.0 ? 100.0 * done / total_ : 100.0);
   if (rate > 0.0)
     line += "  " + format_count(rate) + "/s  " + format_duration((total_ - done) / rate) + " left";
   write(line + (detail.empty() ? "" : "  " + detail));
@@ -67,16 +61,16 @@ double steady_seconds() {
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 std::string format_count(double count) {
-  if (count < 1e3) return print("%.0f", count);
-  if (count < 1e6) return print("%.1fk", count / 1e3);
-  return print("%.2fM", count / 1e6);
+  if (count < 1e3) return formatted("%.0f", count);
+  if (count < 1e6) return formatted("%.1fk", count / 1e3);
+  return formatted("%.2fM", count / 1e6);
 }
 
 std::string format_duration(double seconds) {
   const long long s = seconds > 0.0 ? static_cast<long long>(seconds + 0.5) : 0;
-  if (s < 60) return print("%lld s", s);
-  if (s < 3600) return print("%lld min %02lld s", s / 60, s % 60);
-  return print("%lld h %02lld min", s / 3600, s / 60 % 60);
+  if (s < 60) return formatted("%lld s", s);
+  if (s < 3600) return formatted("%lld min %02lld s", s / 60, s % 60);
+  return formatted("%lld h %02lld min", s / 3600, s / 60 % 60);
 }
 
 }  // namespace mimicx::record

@@ -1,9 +1,9 @@
 #include "record/run_folder.h"
 
-#include <cstdio>
 #include <system_error>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "record/outputs.h"
 
 namespace mimicx::record {
@@ -53,9 +53,7 @@ std::uint64_t fnv1a(std::string_view bytes) {
 }
 
 std::string checksum(std::string_view bytes) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fnv1a(bytes)));
-  return text;
+  return formatted("%016llx", static_cast<unsigned long long>(fnv1a(bytes)));
 }
 
 std::string file_checksum(const std::filesystem::path& path) { return checksum(read_file(path)); }

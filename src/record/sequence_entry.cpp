@@ -1,11 +1,9 @@
 #include "record/sequence_entry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
 #include "core/containers.h"
-#include "record/former_settings.h"
 #include "record/run_folder.h"
 #include "record/utf8_names.h"
 
@@ -123,7 +121,7 @@ SequenceEntry entry_of(const Json& json) {
   e.ok = json.at("status") == "ok";
   e.reason = json.at("reason").get<std::string>();
   if (json.contains("parts")) e.parts = json.at("parts").get<std::vector<std::array<int, 2>>>();  // as below
-  e.method = current_method(json.value("method", "").get<std::string>());
+  e.method = json.value("method", "").get<std::string>();
   e.ending = ending_of(json.at("ending").get<std::string>());
   e.frames = json.at("frames");
   e.fps = json.at("fps");

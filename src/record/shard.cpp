@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
+
+#include "core/number_text.h"
 
 namespace mimicx::record {
 namespace {
@@ -62,9 +63,7 @@ std::optional<Shard> shard_of_array(const std::function<const char*(const char*)
 
 std::string shard_name(const Shard& shard) {
   const int width = std::max(3, static_cast<int>(std::to_string(shard.count).size()));
-  char text[32];
-  std::snprintf(text, sizeof text, "%0*d-of-%0*d", width, shard.index, width, shard.count);
-  return text;
+  return formatted("%0*d-of-%0*d", width, shard.index, width, shard.count);
 }
 
 RunFolder shard_folder(const std::filesystem::path& root, const Shard& shard) {

@@ -1,6 +1,5 @@
 #include "record/shard_list.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 

@@ -6,8 +6,6 @@
 /// shadow.
 #pragma once
 
-#include <cstdint>
-
 #include "render/solid.h"
 
 namespace mimicx::render {

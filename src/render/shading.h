@@ -1,8 +1,6 @@
 /// Lighting: the colour of solids and floor as the camera sees them.
 #pragma once
 
-#include <optional>
-
 #include "render/camera.h"
 #include "render/floor_shadow.h"
 #include "render/lamp_shadow.h"

@@ -1,7 +1,6 @@
 #include "render/text.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/glyphs.h"
 

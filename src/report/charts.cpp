@@ -1,7 +1,6 @@
 #include "report/charts.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/base64_digits.h"
 #include "rl/tracking/reward.h"

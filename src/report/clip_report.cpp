@@ -1,8 +1,6 @@
 #include "report/clip_report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <optional>
 
 #include "audit/audit_file.h"
@@ -55,14 +53,6 @@ std::vector<ReportFact> facts_of(const record::SequenceEntry& entry) {
     for (const auto& [name, value] : *values)
       facts.push_back({words_of_group(group), words_of_value(group, name), value});
   return facts;
-}
-
-/// The first `frames` frames.
-motion::MotionSamples head_of(motion::MotionSamples samples, int frames) {
-  samples.joints.resize(frames);
-  samples.surface.resize(frames);
-  samples.self_depth.resize(static_cast<std::size_t>(frames));
-  return samples;
 }
 
 /// A motion of the player with its curves.

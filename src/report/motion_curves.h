@@ -5,7 +5,6 @@
 /// of docs/metrics.md. A frame without a value is NaN.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "motion/metrics.h"

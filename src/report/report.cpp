@@ -1,6 +1,5 @@
 #include "report/report.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
-#include <stdexcept>
 
 #include "core/file.h"
+#include "core/number_text.h"
 #include "record/timing.h"
 #include "report/clip_report.h"
 #include "report/clip_script_file.h"
@@ -17,15 +16,10 @@ namespace {
 
 /// "1 h 23 min", "2 min 5 s", "24 s"
 std::string in_words(double seconds) {
-  char text[48];
   const long whole = std::lround(seconds);
-  if (whole >= 3600)
-    std::snprintf(text, sizeof text, "%ld h %ld min", whole / 3600, whole % 3600 / 60);
-  else if (whole >= 60)
-    std::snprintf(text, sizeof text, "%ld min %ld s", whole / 60, whole % 60);
-  else
-    std::snprintf(text, sizeof text, seconds < 10.0 ? "%.1f s" : "%.0f s", seconds);
-  return text;
+  if (whole >= 3600) return formatted("%ld h %ld min", whole / 3600, whole % 3600 / 60);
+  if (whole >= 60) return formatted("%ld min %ld s", whole / 60, whole % 60);
+  return formatted(seconds < 10.0 ? "%.1f s" : "%.0f s", seconds);
 }
 
 std::vector<std::pair<std::string, std::string>> run_in_words(const record::RunFolder& folder,

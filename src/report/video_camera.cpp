@@ -1,7 +1,5 @@
 #include "report/video_camera.h"
 
-#include <algorithm>
-
 #include "motion/keypoint_names.h"
 #include "record/json.h"
 #include "report/base64_digits.h"

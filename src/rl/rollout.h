@@ -11,7 +11,6 @@
 /// caller passes the agent of each row.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/containers.h"

@@ -2,6 +2,7 @@
 /// (`SimulatedSequence`).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -35,7 +36,10 @@ struct SequenceJob {
 };
 
 /// The job with its time limit reduced by the seconds that were spent.
-SequenceJob after_seconds(const SequenceJob& job, double seconds);
+inline SequenceJob after_seconds(SequenceJob job, double seconds) {
+  if (job.limit_seconds > 0.0) job.limit_seconds = std::max(job.limit_seconds - seconds, 1e-9);
+  return job;
+}
 
 /// Decides when planning or training of one motion stops, and records why. Must outlive every control that it
 /// returned, at the same address.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/number_text.h"
 #include "core/quantile.h"
 #include "judge/headline.h"
 #include "record/progress.h"
@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kFailuresNamed = 5;
 
-std::string format(const char* how, double number) {
-  char text[64];
-  std::snprintf(text, sizeof text, how, number);
-  return text;
-}
-
 /// "sliding 1.7 -> 0.2 mm a frame"; empty if neither value is visible.
 std::string change(const judge::Headline& fault, double before, double after) {
   before *= fault.scale;
@@ -26,13 +20,10 @@ std::string change(const judge::Headline& fault, double before, double after) {
   if (!std::isfinite(after)) return {};
   const bool known = std::isfinite(before);
   if (after < fault.visible && !(known && before >= fault.visible)) return {};
-  char text[96];
   if (known)
-    std::snprintf(text, sizeof text, "%s %.*f -> %.*f %s", fault.name, fault.decimals, before, fault.decimals,
-                  after, fault.unit);
-  else
-    std::snprintf(text, sizeof text, "%s %.*f %s", fault.name, fault.decimals, after, fault.unit);
-  return text;
+    return formatted("%s %.*f -> %.*f %s", fault.name, fault.decimals, before, fault.decimals, after,
+                     fault.unit);
+  return formatted("%s %.*f %s", fault.name, fault.decimals, after, fault.unit);
 }
 
 /// A metric of the successful entries. Empty if none has it.
@@ -90,7 +81,7 @@ std::string result_line(const record::SequenceEntry& entry) {
   std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
   if (!entry.reason.empty()) line += ", " + entry.reason;
   const double distance = value_of(entry.metrics, "gMPJPE");
-  if (std::isfinite(distance)) line += format(", %.1f mm from the reference", distance);
+  if (std::isfinite(distance)) line += formatted(", %.1f mm from the reference", distance);
   for (const judge::Headline& fault : judge::kHeadlines) {
     if (!fault.always) continue;
     const std::string words =
@@ -115,8 +106,8 @@ std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entri
                                     record::format_duration(seconds)};
   const std::vector<double> distances = successes(entries, &record::SequenceEntry::metrics, "gMPJPE");
   if (!distances.empty())
-    lines.push_back(format("  in the median %.1f mm from the reference, ", median(distances)) +
-                    format("at most %.1f mm", *std::max_element(distances.begin(), distances.end())));
+    lines.push_back(formatted("  in the median %.1f mm from the reference, ", median(distances)) +
+                    formatted("at most %.1f mm", *std::max_element(distances.begin(), distances.end())));
   for (const judge::Headline& fault : judge::kHeadlines) {
     if (!fault.always) continue;
     const std::string words =

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "audit/scene_search.h"

@@ -12,7 +12,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "import/motion_file.h"
 #include "synth/noise/noise_model.h"

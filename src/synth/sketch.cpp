@@ -1,7 +1,6 @@
 #include "synth/sketch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace mimicx::synth {

@@ -27,6 +27,13 @@ const Kind* find_kind(const std::vector<Kind>& kinds, const std::string& name) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
+template <class Kind>
+std::vector<std::string> names_of(const std::vector<Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.push_back(kind.name);
+  return names;
+}
+
 }  // namespace
 
 std::uint64_t index_of_kind(const std::string& name) {
@@ -41,23 +48,9 @@ std::uint64_t index_of_kind(const std::string& name) {
   throw std::invalid_argument("unknown kind of motion '" + name + "'");
 }
 
-std::vector<std::string> synthetic_kinds() {
-  std::vector<std::string> names;
-  for (const SynthKind& kind : synth_kinds()) names.push_back(kind.name);
-  return names;
-}
-
-std::vector<std::string> floor_kinds() {
-  std::vector<std::string> names;
-  for (const SketchedKind& kind : sketched_kinds()) names.push_back(kind.name);
-  return names;
-}
-
-std::vector<std::string> ground_kinds() {
-  std::vector<std::string> names;
-  for (const SceneKind& kind : scene_kinds()) names.push_back(kind.name);
-  return names;
-}
+std::vector<std::string> synthetic_kinds() { return names_of(synth_kinds()); }
+std::vector<std::string> floor_kinds() { return names_of(sketched_kinds()); }
+std::vector<std::string> ground_kinds() { return names_of(scene_kinds()); }
 
 std::vector<std::string> basic_kinds() {
   constexpr std::ptrdiff_t kBasicKinds = 14;

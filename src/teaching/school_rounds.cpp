@@ -1,9 +1,9 @@
 #include "teaching/school_rounds.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/npz/npz.h"
+#include "core/number_text.h"
 #include "record/table.h"
 
 namespace mimicx::teaching {
@@ -58,9 +58,7 @@ std::optional<Pupil> teach_option(const OptionLessons& option, const record::Run
     if (round) {
       progress.log.rows.push_back({static_cast<double>(round->round), static_cast<double>(round->lessons),
                                    round->put_back, round->loss});
-      char detail[64];
-      std::snprintf(detail, sizeof detail, "%.2f of 1000 go astray", round->put_back);
-      context.progress.update(progress.pupil.rounds, detail);
+      context.progress.update(progress.pupil.rounds, formatted("%.2f of 1000 go astray", round->put_back));
     }
     const bool stop = !round || (context.should_stop && context.should_stop());
     const bool last = progress.pupil.rounds == school.rounds;

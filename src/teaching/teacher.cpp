@@ -1,8 +1,5 @@
 #include "teaching/teacher.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/lanes.h"
 
 namespace mimicx::teaching {

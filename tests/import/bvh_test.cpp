@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "import/bvh_write.h"
+#include "import/motion_file.h"
+#include "import/text_input.h"
 #include "motion/made_motions.h"
 
 namespace mimicx::import {
@@ -287,12 +289,12 @@ TEST(Bvh, WarnsOfFramesBeyondTheClaimedNumber) {
 }
 
 TEST(Bvh, RejectsFoldersAndMissingFiles) {
-  EXPECT_THROW(read_bvh(::testing::TempDir()), DataError);
-  EXPECT_THROW(read_bvh("/no/such/file.bvh"), DataError);
+  EXPECT_THROW(read_motion(::testing::TempDir()), DataError);
+  EXPECT_THROW(read_motion("/no/such/file.bvh"), DataError);
   const fs::path pipe = fs::path(::testing::TempDir()) / "mimicx_bvh_test_pipe";
   fs::remove(pipe);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_THROW(read_bvh(pipe), DataError);  // and does not wait for a writer
+  EXPECT_THROW(read_motion(pipe), DataError);  // and does not wait for a writer
   fs::remove(pipe);
 }
 
@@ -302,7 +304,7 @@ double round_trip_error(const motion::Clip& clip) {
       fs::path(::testing::TempDir()) /
       (std::string("mimicx_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".bvh");
   write_bvh(path, clip);
-  const SkeletonMotion motion = read_bvh(path);
+  const SkeletonMotion motion = parse_bvh(read_text(path), path);
   EXPECT_EQ(motion.frames(), clip.frames());
   EXPECT_NEAR(motion.fps, clip.fps, 1e-6 * clip.fps);
   double worst = 0.0;

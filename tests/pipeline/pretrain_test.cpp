@@ -146,7 +146,7 @@ TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "fitted keypoints count anyway";
 }
 
-TEST_F(Pretrain, AsIsCorrectsNothing) {
+TEST_F(Pretrain, AsIsHasTheFeaturesOfTheUncorrectedMotion) {
   motions = out("motions");
   std::filesystem::create_directories(motions);
   motion::write_clip(motions / "stand_1.npz", test::beginning_of_stand("noisy", 45));
@@ -227,25 +227,6 @@ TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
   config.training.seed += 1;
   EXPECT_THROW(run(config), std::invalid_argument);
   EXPECT_EQ(run::results_of(out("run")), before);
-}
-
-TEST_F(Pretrain, ItsFolderOfAnEarlierVersionIsDoneWhereFormerSettingsAreTodaysConstants) {
-  const PretrainConfig config = pretraining("run");
-  pretrain_once("run");
-  const std::filesystem::path manifest = out("run") / "manifest.json";
-  const std::string today = read_file(manifest), opening = "\"settings\": {";
-  const auto with = [&](const std::string& setting) {
-    std::string text = today;
-    text.insert(text.find(opening) + opening.size(), setting + ",");
-    write_file_atomically(manifest, text);
-    return text;
-  };
-  const std::string before = with("\"encoder_code\": 64, \"step_factor\": 1.5");
-  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
-  EXPECT_EQ(read_file(manifest), before) << "it is done";
-  with("\"step_factor\": 2.0");
-  EXPECT_NE(refusal_of([&] { run(config); }).find("settings/step_factor is 2.0 there, not set here"),
-            std::string::npos);
 }
 
 TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {

@@ -306,28 +306,6 @@ TEST_F(PlanMotions, RejectsAFolderOfOtherSettings) {
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 
-TEST_F(PlanMotions, AFolderOfAnEarlierVersionIsContinuedWhereItsFormerSettingsAreTodaysConstants) {
-  PlanMotionsConfig config = planning("run", {stand});
-  run(config);
-  const std::filesystem::path path = out("run") / "manifest.json";
-  const auto set_in_manifest = [&](const NamedValues& former) {
-    record::Manifest manifest = record::read_manifest(path);
-    manifest.settings = manifest_settings(config);
-    append(manifest.settings, former);
-    write_file_atomically(path, record::format_manifest(manifest));
-  };
-  set_in_manifest({{"plan_trusted", 0.2}, {"plan_help_spin", 8.6}});
-  const auto before = run::results_of(out("run"));
-  run(config);
-  EXPECT_TRUE(run::results_of(out("run")) == before) << "all of it is done";
-  config.run.inputs.push_back(other);
-  run(config);
-  EXPECT_EQ(record::read_manifest(path).sequences.size(), 2u) << "it goes on with more motions";
-  set_in_manifest({{"plan_trusted", 0.3}});
-  EXPECT_NE(refusal_of([&] { run(config); }).find("plan_trusted is 0.3 there, not set here"),
-            std::string::npos);
-}
-
 TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) { check_settings(PlanningConfig{}); }
 
 TEST(PlanningSettings, RejectsImpossibleValuesByName) {

@@ -116,7 +116,7 @@ TEST(Configurations, PresetsDifferOnlyInTheirNetworks) {
     else
       EXPECT_TRUE(small == large || (std::isnan(small) && std::isnan(large))) << row.name;
   }
-  EXPECT_EQ(pretrain_configuration("large").training.hidden, (std::vector<int>{1536, 1024, 512}));
+  EXPECT_EQ(pretrain_configuration("large").training.hidden, (std::vector<int>{1024, 1024, 1024, 256}));
   EXPECT_THROW(pretrain_configuration("huge"), std::invalid_argument);
 }
 
@@ -149,17 +149,38 @@ TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
 
 TEST(Configurations, EverySettingOfTheMethodAsPrintedHasARowInTheDeviations) {
   std::istringstream page(read_file(std::filesystem::path(MIMICX_SOURCE_DIR) / "docs" / "deviations.md"));
-  std::string rows;
-  for (std::string line; std::getline(page, line);)
-    if (line.starts_with("| ")) rows += line;
-  for (const auto& [name, value] : settings_changed("adapt", "adapt printed")) {
+  std::string undo,
+      keep;  // the last cells of the rows: what makes our default the print's; what keeps ours in it
+  for (std::string line; std::getline(page, line);) {
+    const std::size_t cell = line.rfind(" | ", line.size() - 3);
+    if (!line.starts_with("| ") || cell == std::string::npos) continue;
+    const std::string last = line.substr(cell);
+    undo += last.substr(0, last.find(';'));
+    if (last.find(';') != std::string::npos) keep += last.substr(last.find(';'));
+  }
+  /// The numbers that follow NAME= in a text.
+  const auto set_in = [](const std::string& text, const std::string& name) {
+    std::vector<double> numbers;
+    for (std::size_t at = 0; (at = text.find(name + "=", at)) != std::string::npos; ++at)
+      if (std::isdigit(text[at + name.size() + 1]))
+        numbers.push_back(std::stod(text.substr(at + name.size() + 1)));
+    return numbers;
+  };
+  for (const auto& [name, printed] : settings_changed("adapt", "adapt printed")) {
     std::string argument = name;
     std::replace(argument.begin(), argument.end(), '_', '-');
-    const bool named = rows.find(" " + name + "=") != std::string::npos ||
-                       rows.find("`" + name + "`") != std::string::npos ||
-                       rows.find("--" + argument) != std::string::npos;
-    EXPECT_TRUE(named) << name;
+    const std::vector<double> undone = set_in(undo, name), kept = set_in(keep, name);
+    EXPECT_TRUE(!undone.empty() || !kept.empty() || (undo + keep).find("--" + argument) != std::string::npos)
+        << name;
+    for (const double number : undone) EXPECT_EQ(number, printed) << name;
+    for (const double number : kept) EXPECT_EQ(number, value(name, 2)) << name;  // of adapt
   }
+}
+
+TEST(Configurations, TrainingFromScratchHasItsOwnSettings) {
+  const auto changed = settings_changed("imitate", "adapt");
+  for (const char* name : {"sigma_start", "sigma_end", "epochs", "kl_target", "critic_step_size"})
+    EXPECT_TRUE(changed.contains(name)) << name;
 }
 
 TEST(Configurations, TextAndJsonAgree) {

@@ -41,6 +41,16 @@ class Means(unittest.TestCase):
         self.assertEqual(paper.Paper.means(seeds, "MPJPE"), "20.0")
         self.assertEqual(paper.Paper.followed(seeds), "1 of 3")
 
+    def test_scratch_trains_with_its_own_settings(self):
+        commands, made = [], paper.Paper.__new__(paper.Paper)
+        made.size, made.out = paper.SIZES[False], pathlib.Path("out")
+        made.run = lambda out, *arguments: commands.append(list(map(str, arguments))) or out
+        made.cleaned(1, "everyday", "scratch")
+        scratch = commands[-1]
+        self.assertEqual(scratch[0], "imitate")
+        changed = {scratch[i + 1].split("=")[0] for i, word in enumerate(scratch) if word == "--set"}
+        self.assertEqual(changed, {"stop_reward", "stall_evaluations", "evaluate_iterations"})  # when it ends, what is logged
+
     def test_samples_count_to_the_first_roll_out_within_the_threshold(self):
         with tempfile.TemporaryDirectory() as folder:
             run = pathlib.Path(folder)

@@ -1,7 +1,5 @@
 #include "audit/load_sharing/linear_program.h"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace mimicx::audit {

@@ -1,6 +1,5 @@
 #include "audit/load_sharing/load_sharing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <stdexcept>
 
 #include "core/bits.h"
 #include "core/error.h"

@@ -1,8 +1,8 @@
 #include "files/exchange/csv.h"
 
-#include <cstdio>
 #include <vector>
 
+#include "core/number_text.h"
 #include "core/units.h"
 
 namespace mimicx::files {
@@ -11,9 +11,7 @@ namespace {
 constexpr Array<const char*, kCarriers> kCarrierNames = {"right_foot", "left_foot", "rest"};
 
 void add_cells(double value, std::string& text) {
-  char number[40];
-  std::snprintf(number, sizeof number, ",%.9g", value == 0.0 ? 0.0 : value);  // no "-0"
-  text += number;
+  text += formatted(",%.9g", value == 0.0 ? 0.0 : value);  // no "-0"
 }
 void add_cells(const Vector3d& v, std::string& text) {
   for (const double value : v) add_cells(value, text);
@@ -71,10 +69,8 @@ std::string format_csv(const motion::Clip& clip, const std::optional<RecordedFor
   const List<FloorForces> floor = forces ? floor_forces(poses, *forces, clip.scene) : List<FloorForces>();
   const double weight = kGravity * motion::character_of(clip).total_mass();
   std::string text = heading(forces.has_value());
-  char number[40];
   for (int t = 0; t < clip.frames(); ++t) {
-    std::snprintf(number, sizeof number, "%.9f", t / clip.fps);
-    text += number;
+    text += formatted("%.9f", t / clip.fps);
     for (const Vector3d& p : poses[t].p_WB) add_cells(p, text);
     const Quaterniond& q = poses[t].q_WB[kPelvis];
     for (const double value : {q.w(), q.x(), q.y(), q.z()}) add_cells(value, text);

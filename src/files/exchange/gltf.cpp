@@ -1,7 +1,6 @@
 #include "files/exchange/gltf.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "files/exchange/glb.h"

@@ -1,7 +1,8 @@
 #include "files/exchange/opensim.h"
 
-#include <cstdio>
 #include <vector>
+
+#include "core/number_text.h"
 
 namespace mimicx::files {
 namespace {
@@ -21,14 +22,9 @@ std::string storage(std::string_view opening, double fps, const std::vector<std:
           "\ninDegrees=no\nendheader\ntime";
   for (const std::string& name : names) text += '\t' + name;
   text += '\n';
-  char number[40];
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::snprintf(number, sizeof number, "%.9f", middle_of_interval(static_cast<int>(i), fps));
-    text += number;
-    for (const double value : rows[i]) {
-      std::snprintf(number, sizeof number, "\t%.6f", value == 0.0 ? 0.0 : value);  // no "-0"
-      text += number;
-    }
+    text += formatted("%.9f", middle_of_interval(static_cast<int>(i), fps));
+    for (const double value : rows[i]) text += formatted("\t%.6f", value == 0.0 ? 0.0 : value);  // no "-0"
     text += '\n';
   }
   return text;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "core/elementary.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
@@ -99,14 +99,12 @@ Residual residual_of(const FitProblem& problem, const FitState& state, const Eva
 /// @throws std::domain_error where the keypoints are of another motion or another camera
 void require_agreement(double distance, FitReport& report) {
   if (distance <= kDoubtful) return;
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
+  const std::string text = formatted(
       "half of the keypoints are over %.1f %% of the person's height away from the best fit: are they of "
       "this motion, and of this camera?",
       distance);
   if (distance > kContradiction) throw std::domain_error(text);
-  report.notes.emplace_back(text);
+  report.notes.push_back(text);
 }
 
 /// Moves the state along a Gauss-Newton step, shortened where a joint would turn too far.
@@ -186,9 +184,7 @@ void report_scene(const Scene& before, const Scene& after, FitReport& report) {
   if (before.flat()) return;
   const double moved = (after.plates[0].centre - before.plates[0].centre).norm();
   if (moved < kToldSceneShift) return;
-  char note[100];
-  std::snprintf(note, sizeof note, "the scene is moved by %.2f m to where the fitted feet stand", moved);
-  report.notes.emplace_back(note);
+  report.notes.push_back(formatted("the scene is moved by %.2f m to where the fitted feet stand", moved));
 }
 
 Contacts contacts_of(const FitProblem& problem, const Evaluated& e, bool settled) {
@@ -249,13 +245,10 @@ void report_distance(const motion::Clip& before, const motion::Clip& after, FitR
   }
   const double from = median(depth_before), to = median(depth_after);
   if (to < kFartherAway * from && from < kFartherAway * to) return;
-  char note[200];
-  std::snprintf(
-      note, sizeof note,
+  report.notes.push_back(formatted(
       "the keypoint fit moves the person from %.1f to %.1f m from the camera: are keypoints and camera "
       "of pictures of one size?",
-      from, to);
-  report.notes.emplace_back(note);
+      from, to));
 }
 
 void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {

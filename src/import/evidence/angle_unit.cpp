@@ -1,7 +1,6 @@
 #include "import/evidence/angle_unit.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "import/evidence/sides.h"
 

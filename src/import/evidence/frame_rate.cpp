@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
 #include "core/elementary.h"
@@ -122,11 +121,7 @@ double last_place(std::string_view text) {
 
 }  // namespace
 
-std::string rate_text(double fps) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", fps);
-  return text;
-}
+std::string rate_text(double fps) { return formatted("%.6g", fps); }
 
 double rate_of_frame_time(std::string_view text, double seconds) {
   const double fps = 1.0 / seconds, whole = std::round(fps);

@@ -5,7 +5,6 @@
 /// stage.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "motion/clip.h"

@@ -1,6 +1,5 @@
 #include "import/opensim/marker_joints.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,5 @@
 #include "import/opensim/marker_names.h"
 
-#include <algorithm>
 #include <cctype>
 #include <optional>
 

@@ -1,7 +1,5 @@
 #include "import/opensim/measured_forces.h"
 
-#include <algorithm>
-
 #include "core/file.h"
 #include "core/npz/npz.h"
 #include "import/opensim/storage_table.h"

@@ -16,7 +16,6 @@
 /// (skeleton_shape.h).
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
 #include "character/body_words.h"
+#include "core/number_text.h"
 #include "core/units.h"
 #include "import/body_fit.h"
 #include "import/evidence/length_unit.h"
@@ -19,13 +19,6 @@
 
 namespace mimicx::import {
 namespace {
-
-template <class... Values>
-std::string sentence(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 /// The input of retargeting: landmarks of every frame and the neutral poses.
 struct Source {
@@ -94,7 +87,7 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
   const double leg = leg_length(source.frames);
   if (config.scale != 0.0) {
     clip.decisions.push_back(
-        sentence("unit %.6g m: given by the user; legs are %.2f m long", config.scale, config.scale * leg));
+        formatted("unit %.6g m: given by the user; legs are %.2f m long", config.scale, config.scale * leg));
     return config.scale;
   }
   if (motion.metric_up != 0) return 1.0;
@@ -104,19 +97,19 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
       unit_evidence(source.frames, rotation_to_z_up(up).conjugate() * Vector3d::UnitZ(), motion.fps, names));
   if (unit.fits) {
     clip.decisions.push_back(
-        sentence("unit %s: legs are %.4g units, %.2f m long", unit.name.c_str(), leg, unit.metres * leg));
+        formatted("unit %s: legs are %.4g units, %.2f m long", unit.name.c_str(), leg, unit.metres * leg));
     if (!unit.usual)
       clip.warnings.push_back(
-          sentence("legs of %.2f m (unit %s) are unusual, usual for this body are %.2f m: "
-                   "--scale %.3g gives it these",
-                   unit.metres * leg, unit.name.c_str(), unit.usual_leg, unit.usual_leg / leg));
+          formatted("legs of %.2f m (unit %s) are unusual, usual for this body are %.2f m: "
+                    "--scale %.3g gives it these",
+                    unit.metres * leg, unit.name.c_str(), unit.usual_leg, unit.usual_leg / leg));
     else if (unit.is_near())
-      clip.warnings.push_back(sentence("the unit may also be %s (legs of %.2f m, not %.2f m): --scale %.6g",
-                                       unit.second.c_str(), unit.second_metres * leg, unit.metres * leg,
-                                       unit.second_metres));
+      clip.warnings.push_back(formatted("the unit may also be %s (legs of %.2f m, not %.2f m): --scale %.6g",
+                                        unit.second.c_str(), unit.second_metres * leg, unit.metres * leg,
+                                        unit.second_metres));
     return unit.metres;
   }
-  clip.warnings.push_back(sentence(
+  clip.warnings.push_back(formatted(
       "legs are %.4g units long, which fits no usual unit (%s: %.2f m): scaled to %.2f m; --scale %.6g "
       "keeps that unit",
       leg, unit.name.c_str(), unit.metres * leg, unit.usual_leg, unit.metres));
@@ -155,7 +148,8 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
     source.neutral.left_foot = least_tenth(source.frames, height(kLeftAnkle, kLeftFoot));
     source.neutral.right_foot = least_tenth(source.frames, height(kRightAnkle, kRightFoot));
     source.neutral_stands = false;
-    source.neutral_name = sentence("the %zu frames nearest to a straight stance", source.neutral.body.size());
+    source.neutral_name =
+        formatted("the %zu frames nearest to a straight stance", source.neutral.body.size());
   }
   clip.decisions.emplace_back("neutral pose: " + source.neutral_name);
   if (decide_sides(source.frames, source.map[kLeftFoot] >= 0 && source.map[kRightFoot] >= 0).are_exchanged())
@@ -237,7 +231,7 @@ std::string residuals_line(const RetargetReport& report) {
   for (int b = 0; b < kBodies; ++b)
     if (!std::isnan(report.residual_mm[b]))
       line += (line.empty() ? "residuals in mm: " : ", ") + body_in_words(b) +
-              sentence(" %.0f", report.residual_mm[b]);
+              formatted(" %.0f", report.residual_mm[b]);
   return line;
 }
 
@@ -248,7 +242,7 @@ void warn_of_residuals(const RetargetReport& report, motion::Clip& clip) {
   for (const int b :
        {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})
     if (report.residual_mm[b] > kFar)
-      far += (far.empty() ? "" : ", ") + body_in_words(b) + sentence(" %.0f mm", report.residual_mm[b]);
+      far += (far.empty() ? "" : ", ") + body_in_words(b) + formatted(" %.0f mm", report.residual_mm[b]);
   if (!far.empty())
     clip.warnings.push_back("our body cannot take the skeleton's proportions: joints are off by " + far +
                             " on average");
@@ -317,7 +311,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   bend_hands(clip);
   report.neutral = source.neutral_name;
   measure(clip, source, report.lift, report);
-  clip.decisions.push_back(sentence(
+  clip.decisions.push_back(formatted(
       config.standard_body
           ? "standard body: legs are %.3f times the skeleton's, joints %.0f mm from its joints on average"
           : "body shape fitted: legs are %.3f times the skeleton's, joints %.0f mm from its joints on "

@@ -13,7 +13,6 @@
 /// no change of frame rate.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>

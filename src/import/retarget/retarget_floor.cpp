@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <span>
 
+#include "core/number_text.h"
 #include "core/quantile.h"
 #include "core/units.h"
 #include "motion/prepare/feet.h"
@@ -85,11 +85,8 @@ void level_soles(bool neutral_stands, Calibration& calibration, motion::Clip& cl
       Quaterniond& q_JB = calibration.q_JB[body];
       q_JB = (q_JB * turn).normalized();
     }
-    char text[96];
-    std::snprintf(text, sizeof text,
-                  "the %s sole is turned by %.0f degrees, so that it is level where it stands", side,
-                  angle / kDegree);
-    clip.decisions.emplace_back(text);
+    clip.decisions.push_back(formatted(
+        "the %s sole is turned by %.0f degrees, so that it is level where it stands", side, angle / kDegree));
   };
   level(left, kLeftAnkle, kLeftFoot, "left");
   level(right, kRightAnkle, kRightFoot, "right");
@@ -115,9 +112,7 @@ double put_on_floor(motion::Clip& clip) {
   const std::vector<double>& heights = stands ? feet : all;
   const double lift = -ranked(heights, static_cast<int>(heights.size() / (stands ? 2 : 20)));
   for (Vector3d& trans : clip.trans) trans.z() += lift;
-  char text[64];
-  std::snprintf(text, sizeof text, "floor: moved %.3f m %s", std::abs(lift), lift < 0.0 ? "down" : "up");
-  clip.decisions.emplace_back(text);
+  clip.decisions.push_back(formatted("floor: moved %.3f m %s", std::abs(lift), lift < 0.0 ? "down" : "up"));
   return lift;
 }
 
@@ -140,10 +135,8 @@ void bend_hands(motion::Clip& clip) {
     }
   }
   if (most == 0.0) return;
-  char text[96];
-  std::snprintf(text, sizeof text, "hands bent by up to %.0f degrees, so that they lie on the floor",
-                most / kDegree);
-  clip.decisions.emplace_back(text);
+  clip.decisions.push_back(
+      formatted("hands bent by up to %.0f degrees, so that they lie on the floor", most / kDegree));
 }
 
 }  // namespace mimicx::import

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 #include "core/so3.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "audit/audit_file.h"
@@ -420,10 +419,7 @@ double column_mean(const std::vector<ForceRow>& rows, std::size_t column) {
 }
 
 std::string cell(const ForceColumn& column, double value) {
-  char text[64] = "-", out[72];
-  if (!std::isnan(value)) std::snprintf(text, sizeof text, column.format, value);
-  std::snprintf(out, sizeof out, " %6s", text);
-  return out;
+  return formatted(" %6s", std::isnan(value) ? "-" : formatted(column.format, value).c_str());
 }
 
 /// The name that is printed: without what tells two columns apart.
@@ -542,11 +538,7 @@ std::string format_forces(const ForceTable& table) {
   const auto& [columns, rows] = table;
   constexpr std::size_t kName = 15;
   std::string text = padded("trial", kName);
-  char head[72];
-  for (const ForceColumn& column : *columns) {
-    std::snprintf(head, sizeof head, " %6s", printed_name(column).c_str());
-    text += head;
-  }
+  for (const ForceColumn& column : *columns) text += formatted(" %6s", printed_name(column).c_str());
   text += '\n';
   for (const ForceRow& row : rows) {
     text += padded(row.name, kName);

@@ -1,7 +1,6 @@
 #include "motion/prepare/feet.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/quantile.h"

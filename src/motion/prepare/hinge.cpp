@@ -1,7 +1,6 @@
 #include "motion/prepare/hinge.h"
 
 #include <algorithm>
-#include <complex>
 
 #include "core/elementary.h"
 #include "core/units.h"

@@ -1,6 +1,5 @@
 #include "motion/prepare/joint_ranges.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "character/joint_range.h"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "character/body_words.h"
+#include "core/number_text.h"
 #include "core/units.h"
 #include "motion/prepare/arm_separation.h"
 #include "motion/prepare/feet.h"
@@ -30,12 +30,6 @@ constexpr double kOddSpeed = 10.0;      ///< m/s, mean of the pelvis
 constexpr double kUpright = 0.3;        ///< vertical component of the pelvis' up axis
 constexpr double kOddLyingShare = 0.8;
 constexpr double kToldRange = 1.0;  ///< degrees beyond a range; less is not worth a line
-
-std::string text(const char* format, double value) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 /// Largest and mean distance of the joints of two motions, mm.
 struct Distance {
@@ -62,34 +56,31 @@ void note_oddities(const PerFrame<BodyPoses>& poses, double fps, double floor_sh
       lying += 1.0 / static_cast<double>(poses.size());
   }
   const double speed = path * fps / static_cast<double>(poses.size() - 1);
-  if (speed > kOddSpeed) notes.push_back(text("mean speed %.1f m/s: are scale and frame rate right?", speed));
+  if (speed > kOddSpeed)
+    notes.push_back(formatted("mean speed %.1f m/s: are scale and frame rate right?", speed));
   if (lying > kOddLyingShare)
-    notes.push_back(text("lying or upside down in %.0f %% of the frames: is z up?", 100.0 * lying));
+    notes.push_back(formatted("lying or upside down in %.0f %% of the frames: is z up?", 100.0 * lying));
   if (std::abs(floor_shift) > kOddFloorShift)
-    notes.push_back(text(floor_shift < 0.0
-                             ? "moved %.2f m down to the floor: is the translation in metres, z up?"
-                             : "moved %.2f m up to the floor: is the translation in metres, z up?",
-                         std::abs(floor_shift)));
+    notes.push_back(formatted(floor_shift < 0.0
+                                  ? "moved %.2f m down to the floor: is the translation in metres, z up?"
+                                  : "moved %.2f m up to the floor: is the translation in metres, z up?",
+                              std::abs(floor_shift)));
 }
 
 /// Notes for a world that contradicts the feet, before preparation moves them.
 std::vector<std::string> contradictions(const Reference& reference) {
   std::vector<std::string> notes;
-  char note[250];
-  if (const auto slope = ground_slope(reference.character, reference.poses, reference.fps)) {
-    std::snprintf(note, sizeof note,
-                  "the feet stand on a slope of %.0f degrees, up would be (%.2f, %.2f, %.2f): is the camera "
+  if (const auto slope = ground_slope(reference.character, reference.poses, reference.fps))
+    notes.push_back(
+        formatted("the feet stand on a slope of %.0f degrees, up would be (%.2f, %.2f, %.2f): is the camera "
                   "tilted? Turn the motion so that gravity points down",
-                  slope->degrees, slope->up.x(), slope->up.y(), slope->up.z());
-    notes.emplace_back(note);
-  }
+                  slope->degrees, slope->up.x(), slope->up.y(), slope->up.z()));
   if (const auto found = travel_contradiction(reference.character, reference.poses, reference.fps)) {
     const double ratio = std::abs(found->ratio) < 0.005 ? 0.0 : found->ratio;  // not "-0.00"
-    std::snprintf(note, sizeof note,
-                  "feet on the floor slide %.0f mm a frame, the body travels %.2f times the way that they "
+    notes.push_back(
+        formatted("feet on the floor slide %.0f mm a frame, the body travels %.2f times the way that they "
                   "walk: a treadmill, or a translation that is missing, mirrored or wrongly scaled?",
-                  found->slide_mm, ratio);
-    notes.emplace_back(note);
+                  found->slide_mm, ratio));
   }
   return notes;
 }
@@ -108,11 +99,9 @@ void bring_into_ranges(Reference& reference, PreparationReport& report) {
   report.range_frames = found.frames;
   report.range_deg = found.farthest / kDegree;
   if (report.range_deg < kToldRange) return;
-  char note[200];
-  std::snprintf(note, sizeof note,
-                "joints were beyond their ranges in %d frames, by up to %.0f degrees (%s): turned inside",
-                found.frames, report.range_deg, body_in_words(found.body).c_str());
-  report.notes.emplace_back(note);
+  report.notes.push_back(
+      formatted("joints were beyond their ranges in %d frames, by up to %.0f degrees (%s): turned inside",
+                found.frames, report.range_deg, body_in_words(found.body).c_str()));
 }
 
 /// Brings joints into their ranges that later steps turned out of them.
@@ -135,15 +124,12 @@ void lead_around(bool sees, Reference& reference, PreparationReport& report) {
   report.passages = found.passages - found.remaining;
   report.passages_left = found.remaining;
   if (found.passages == 0) return;
-  char note[200];
-  std::snprintf(
-      note, sizeof note,
+  report.notes.push_back(formatted(
       "limbs pass through the body %d times, first at %.2f s (%s through %s): led around it by up to "
       "%.0f mm%s",
       found.passages, found.first_frame / reference.fps, body_in_words(found.limb_body).c_str(),
       body_in_words(found.obstacle).c_str(), kMm * found.moved,
-      found.remaining == 0 ? "" : "; not everywhere was a way found");
-  report.notes.emplace_back(note);
+      found.remaining == 0 ? "" : "; not everywhere was a way found"));
 }
 
 /// Puts the reference on the floor and reports by how much it moved.

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+
+#include "core/number_text.h"
 
 namespace mimicx::pipeline::options {
 namespace {
@@ -36,12 +37,6 @@ Impression impression_of(const MotionFeatures& f) {
   return i;
 }
 
-std::string text(const char* format, double value) {
-  char buffer[80];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 std::string join(const std::vector<std::string>& words) {
   std::string out;
   for (const auto& word : words) out += (out.empty() ? "" : ", ") + word;
@@ -70,12 +65,12 @@ std::string describe_motion(const MotionFeatures& features) {
   const Impression i = impression_of(features);
   std::vector<std::string> words;
   words.push_back(i.effort < 1.5 ? "calm" : i.effort < 6.0 ? "lively" : "vigorous");
-  words.push_back(text(i.hips < 0.4   ? "close to the floor (hips at %.2f m)"
-                       : i.hips < 0.8 ? "low (hips at %.2f m)"
-                                      : "upright (hips at %.2f m)",
-                       i.hips));
-  words.push_back(i.travel < 0.2 ? "stays in place" : text("moves about at %.1f m/s", i.travel));
-  if (i.turning >= 45.0) words.push_back(text("turns (%.0f degrees/s)", i.turning));
+  words.push_back(formatted(i.hips < 0.4   ? "close to the floor (hips at %.2f m)"
+                            : i.hips < 0.8 ? "low (hips at %.2f m)"
+                                           : "upright (hips at %.2f m)",
+                            i.hips));
+  words.push_back(i.travel < 0.2 ? "stays in place" : formatted("moves about at %.1f m/s", i.travel));
+  if (i.turning >= 45.0) words.push_back(formatted("turns (%.0f degrees/s)", i.turning));
   if (i.bounce >= 0.25) words.push_back(i.bounce < 0.6 ? "rises and sinks" : "leaps or drops");
   words.push_back(i.feet < 0.05 ? "feet stay down" : i.feet < 0.3 ? "steps" : "feet swing high");
   words.push_back(i.arms < 0.25 ? "arms quiet" : i.arms < 0.9 ? "arms move" : "arms busy");

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
+#include "core/number_text.h"
 #include "pipeline/options/cluster_words.h"
 #include "pipeline/options/kmeans.h"
 #include "record/json.h"
@@ -155,10 +155,9 @@ std::string format_cluster_tree(const Clusters& clusters) {
     depth.push_back(branch.parent < 0 ? 0 : depth[branch.parent] + 1);
     const std::string indent(2 * static_cast<std::size_t>(depth.back()), ' ');
     const bool leaf = branch.cluster >= 0;
-    char diameter[40];
-    std::snprintf(diameter, sizeof diameter, ", diameter %.2f\n", branch.diameter);
     out += indent + (leaf ? "cluster " + std::to_string(branch.cluster) + ": " : "") +
-           std::to_string(branch.motions) + (branch.motions == 1 ? " motion" : " motions") + diameter;
+           std::to_string(branch.motions) + (branch.motions == 1 ? " motion" : " motions") +
+           formatted(", diameter %.2f\n", branch.diameter);
     if (!leaf) continue;
     const MotionCluster& cluster = clusters.clusters[branch.cluster];
     out += indent + "  " + cluster.description + '\n';
@@ -174,11 +173,9 @@ std::string format_kind_shares(const Clusters& clusters) {
   if (motions.empty()) return "";
   const Array<double, kFeatureKindCount> shares = kind_shares(motions);
   std::string line = "shares of the variance:";
-  for (int kind = 0; kind < kFeatureKindCount; ++kind) {
-    char share[16];
-    std::snprintf(share, sizeof share, " %.1f %%", 100.0 * shares[kind]);
-    line += (kind > 0 ? ", " : " ") + std::string(kFeatureKinds[kind].name) + share;
-  }
+  for (int kind = 0; kind < kFeatureKindCount; ++kind)
+    line += (kind > 0 ? ", " : " ") + std::string(kFeatureKinds[kind].name) +
+            formatted(" %.1f %%", 100.0 * shares[kind]);
   return line + '\n';
 }
 

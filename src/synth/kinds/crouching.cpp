@@ -1,5 +1,4 @@
 // Low postures: crouches, picking up, sitting without a chair, lunges in every direction.
-#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "synth/gait.h"
 #include "synth/kinds.h"

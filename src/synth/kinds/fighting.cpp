@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "synth/kinds.h"
 #include "synth/kinds/random_postures.h"

@@ -1,6 +1,4 @@
 // Gestures of the arms while standing: reaching, talking, stretching, swinging.
-#include <cmath>
-#include <numbers>
 
 #include "synth/choreography.h"
 #include "synth/kinds/random_postures.h"

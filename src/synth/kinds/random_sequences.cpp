@@ -1,6 +1,4 @@
 // Random sequences of steps, postures, raised legs and crouches.
-#include <algorithm>
-#include <cmath>
 
 #include "synth/choreography.h"
 #include "synth/kinds/random_postures.h"

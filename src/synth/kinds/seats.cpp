@@ -1,6 +1,5 @@
 // Onto a seat or a bed and up again.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/elementary.h"

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <numbers>
 
 #include "core/elementary.h"

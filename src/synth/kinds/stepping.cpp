@@ -1,6 +1,5 @@
 // Steps onto stairs, kerbs and boxes.
 #include <algorithm>
-#include <cmath>
 
 #include "synth/gait.h"
 #include "synth/kinds.h"

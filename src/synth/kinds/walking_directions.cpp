@@ -1,5 +1,4 @@
 // Walking in every direction: one walker whose steps are given one by one.
-#include <algorithm>
 
 #include "core/elementary.h"
 #include "synth/choreography.h"

@@ -1,10 +1,9 @@
 /// The noise model: turns a clean clip into a "video-recovered" one with the errors of a video estimator,
 /// 2D keypoints and a camera.                                   docs/method.md, "Noise model", (4) to (16)
 ///
-/// It shares none of the keypoint fit's assumptions: neither joint weights nor normal errors, neither offsets
-/// of keypoints that are constant in the picture nor a confidence that tells the error. Results on it
-/// therefore predict results on other estimators. Camera and errors follow from the seed; each term has its
-/// own random stream, so that turning one off does not change the others.
+/// Its distributions are not those that the keypoint fit assumes: other joint weights, heavy tails, keypoints
+/// that turn with limb and view, a confidence that does not tell the error. Camera and errors follow from the
+/// seed; each term has its own random stream, so that turning one off does not change the others.
 ///
 /// What it does not do: no images; the truth is never written into the noisy clip.
 #pragma once

@@ -9,6 +9,7 @@
 #include "import/bvh.h"
 #include "import/deepmimic.h"
 #include "import/retarget/retarget.h"
+#include "import/text_input.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 
@@ -28,7 +29,8 @@ std::vector<fs::path> files_of(const std::string& folder) {
 }
 
 SkeletonMotion read(const fs::path& path) {
-  return path.extension() == ".bvh" ? read_bvh(path) : read_deepmimic(path);
+  const std::string text = read_text(path);
+  return path.extension() == ".bvh" ? parse_bvh(text, path) : parse_deepmimic(text, path);
 }
 
 /// Largest mean residual over the limbs from hips and shoulders outwards, feet apart, mm.

@@ -32,6 +32,8 @@ TEST(EncodedState, PolicySeesTheReferenceOnlyThroughItsEncoder) {
     frame.q[0] = rotation_z(std::atan2(was.y(), was.x()) - std::atan2(is.y(), is.x())) * frame.q[0];
     pose = rl::tracking::pose_of(reference.character, frame);
   }
+  for (std::size_t t = 0; t < other->joints.size(); ++t)
+    other->joints[t] = rl::tracking::joint_features(other->poses[t].frame);
   std::vector<float> a(static_cast<std::size_t>(seen->state_size())), b = a;
   rl::tracking::TrackingPack first(seen, config), second(other, config);
   second.copy_lane(0, first, 0);

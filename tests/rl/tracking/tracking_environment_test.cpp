@@ -190,7 +190,7 @@ TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
   first_frames_reached(environment);  // all fall and restart by the given fall rates
   const List<std::int64_t> reached = first_frames_reached(environment);
   // Two fifths start anywhere; the rest in the bin of the falls and the two before it, as 10 : 7 : 4
-  // (docs/method.md §9).
+  // (docs/method.md §7, "Episodes").
   const double even = 0.4 / 59, hard = 0.6 / 21;
   EXPECT_LT(chi_squared({10 * even, 10 * even + 4 * hard, 10 * even + 7 * hard, 10 * even + 10 * hard,
                          10 * even, 9 * even},
