@@ -125,27 +125,6 @@ TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
             read_file(out("blind") / "training" / "option0.csv"));
 }
 
-TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid) {
-  PretrainConfig config = pretraining("run");
-  pretrain_once("run");
-  std::string earlier = read_file(out("run") / "manifest.json");
-  for (const std::string setting : {"\"as_is\": false,", "\"keypoints\": true,"}) {
-    const std::size_t at = earlier.find(setting);
-    ASSERT_NE(at, std::string::npos) << setting;
-    earlier.erase(at, setting.size());
-  }
-  write_file_atomically(out("run") / "manifest.json", earlier);
-  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
-  EXPECT_EQ(read_file(out("run") / "manifest.json"), earlier) << "it is done";
-  config.correction.as_is = true;
-  config.correction.unfitted_keypoints = true;
-  EXPECT_NE(refusal_of([&] { run(config); }).find("settings/fit is true there, false here"),
-            std::string::npos);
-  config.correction.fit = true;
-  config.correction.as_is = false;
-  EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "fitted keypoints count anyway";
-}
-
 TEST_F(Pretrain, AsIsHasTheFeaturesOfTheUncorrectedMotion) {
   motions = out("motions");
   std::filesystem::create_directories(motions);
