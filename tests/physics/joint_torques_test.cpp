@@ -238,6 +238,52 @@ Quaterniond range_centre(const JointParameters& j, int body) {
   return exp_map(is_hinge(body) ? Vector3d(j.centre.x() * hinge_axis(body)) : j.centre);
 }
 
+// docs/physics.md §3, "Range": the spring pushes against the gradient of g by 2 (x, y, z), and the damper
+// resists the whole velocity of the joint.
+TEST(JointRange, TorqueIsSpringAlongTheGradientAndDamperOfTheWholeVelocity) {
+  Random random(12, {});
+  const Character character = make_character();
+  const auto model = make_model<double>(character);
+  const double k = model.config.limit_stiffness, gain = model.config.limit_damping + model.dt * k;
+  int outside = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Snapshot s = random_snapshot(random, 1.2, 3.0, 2.0);
+    State<double> moving;
+    Target<double> target;
+    set_lane(s, 0, moving, target);
+    State<double> still = moving;
+    for (auto& omega : still.omega) omega = zero3<double>();
+    Data<double> d, at_rest;
+    update_kinematics(model, moving, d);
+    update_kinematics(model, still, at_rest);
+    for (int b = 1; b < kBodies; ++b) {
+      compute_range(model, moving, b, d);
+      compute_range(model, still, b, at_rest);
+      const Matrix3d R = forward_kinematics(character, s.p_root, s.q).q_WB[b].toRotationMatrix();
+      const Vector3d torque = to_eigen(d.tau_range[b]), spring = to_eigen(at_rest.tau_range[b]);
+      const bool is_outside = spring.norm() > 1e-6;
+      outside += is_outside ? 1 : 0;
+      const Vector3d damper =
+          is_outside ? Vector3d(-gain * (R * to_eigen(moving.omega[b]))) : Vector3d::Zero();
+      EXPECT_LT((torque - spring - damper).norm(), 1e-9 * (1.0 + torque.norm())) << b;
+      EXPECT_NEAR(d.delta_range[b], is_outside ? model.dt * gain : 0.0, 1e-12) << b;
+      if (!is_outside || is_hinge(b)) continue;
+      const JointParameters& j = character.joint[b];
+      Quaterniond x = range_centre(j, b).conjugate() * s.q[b];
+      if (x.w() < 0.0) x.coeffs() *= -1.0;
+      const Vector3d half = 2.0 * (0.5 * j.half_range.array()).sin().matrix();
+      const auto g = [&](const Vector3d& v) { return v.cwiseQuotient(half).norm(); };
+      Vector3d gradient;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d step = 1e-6 * Vector3d::Unit(axis);
+        gradient[axis] = (g(2.0 * x.vec() + step) - g(2.0 * x.vec() - step)) / 2e-6;
+      }
+      EXPECT_LT((spring.normalized() + R * gradient.normalized()).norm(), 1e-6) << b;
+    }
+  }
+  EXPECT_GT(outside, 50);
+}
+
 /// Distance of a joint from its range ellipsoid, rad along the way to the centre; 0 inside.
 double excess(const JointParameters& j, int body, const Quaterniond& q) {
   const Vector3d r = log_map(range_centre(j, body).conjugate() * q);
