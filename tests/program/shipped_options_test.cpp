@@ -14,8 +14,9 @@ namespace {
 
 const std::filesystem::path kOptions = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
 const std::filesystem::path kTaught = kOptions / "taught";
-const std::filesystem::path kTestSplit =
-    std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic" / "test" / "noisy";
+const std::filesystem::path kSynthetic = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic";
+const std::filesystem::path kTestSplit = kSynthetic / "test" / "noisy";
+const std::filesystem::path kTrainingSplit = kSynthetic / "train" / "noisy";
 
 /// What a run over the first frames of a motion of the test split records.
 /// @param work  runs `config`, which says how many samples are drawn, in a context
@@ -109,6 +110,26 @@ TEST(ShippedOptions, AreThoseOfTheDefaultRadius) {
       EXPECT_NEAR(centre, shipped.clusters[c].centre[k], 1e-9 * unit) << options::feature_names()[k];
       EXPECT_NEAR(centre, set->options[c].centre[k], 1e-9 * unit) << options::feature_names()[k];
     }
+  }
+}
+
+/// The training motions of data/synthetic are among those of tools/train_options.
+TEST(ShippedOptions, FeaturesAreThoseOfTheTrainingMotionsToday) {
+  namespace options = pipeline::options;
+  const options::Clusters shipped = options::read_clusters(kOptions / "clusters.json");
+  for (const std::string name : {"lunge_101", "squat_101", "walk_101"}) {
+    const run::PreparedMotion motion =
+        run::prepare_motion(kTrainingSplit / (name + ".npz"), {}, pretrain_configuration("small").correction);
+    const options::MotionFeatures features = options::motion_features(motion.reference);
+    int found = 0;
+    for (const options::MotionCluster& cluster : shipped.clusters)
+      for (int i = 0; i < cluster.features.count(); ++i) {
+        if (cluster.members[static_cast<std::size_t>(i)] != name) continue;
+        ++found;
+        for (int k = 0; k < options::kFeatures; ++k)
+          EXPECT_NEAR(features[k], cluster.features[i][k], 1e-6 * options::feature_units()[k]) << name;
+      }
+    EXPECT_EQ(found, 1) << name;
   }
 }
 
