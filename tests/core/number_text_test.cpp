@@ -20,6 +20,14 @@ TEST(NumberText, RoundTripKeepsTheNumber) {
   EXPECT_EQ(text_of(-3.0), "-3");
 }
 
+TEST(Formatted, IsWhatPrintfWritesOfAnyLength) {
+  EXPECT_EQ(formatted("%d of %s, %.1f %%", 3, "four", 75.0), "3 of four, 75.0 %");
+  EXPECT_EQ(formatted("nothing"), "nothing");
+  EXPECT_EQ(formatted("%s", ""), "");
+  const std::string longest(100'000, 'x');
+  EXPECT_EQ(formatted("%s%d", longest.c_str(), 1), longest + "1");
+}
+
 TEST(NumberText, AcceptsNumbersOnly) {
   EXPECT_EQ(number_from("-1.5e3"), -1500.0);
   EXPECT_EQ(number_from(".5"), 0.5);
