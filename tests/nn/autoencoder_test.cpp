@@ -63,6 +63,9 @@ TEST(AutoEncoder, RemovesNoiseThatSamplesDoNotShare) {
     return rms((all - inside * Q).cast<float>());
   };
   EXPECT_LT(across(decoded - clean), 0.05 * across(noisy - clean));
+  encode(coder, clean, code, decoded);
+  EXPECT_LT(rms(decoded - clean), 0.2 * rms(clean))
+      << "what all samples have stays: " << rms(decoded - clean) / rms(clean);
 }
 
 // Steps of size 0 leave the initial networks: the loss of a large minibatch is that of as many own draws.
