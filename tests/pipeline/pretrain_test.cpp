@@ -125,6 +125,21 @@ TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
             read_file(out("blind") / "training" / "option0.csv"));
 }
 
+TEST_F(Pretrain, FittedKeypointsCountWithAndWithoutUnfittedOnes) {
+  PretrainConfig config = pretraining("run");
+  pretrain_once("run");
+  const std::string manifest = read_file(out("run") / "manifest.json");
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  EXPECT_EQ(read_file(out("run") / "manifest.json"), manifest) << "it is done";
+  config.correction.as_is = true;
+  config.correction.unfitted_keypoints = true;
+  EXPECT_NE(refusal_of([&] { run(config); }).find("settings/fit is true there, false here"),
+            std::string::npos);
+  config.correction.fit = true;
+  config.correction.as_is = false;
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "fitted keypoints count anyway";
+}
+
 TEST_F(Pretrain, AsIsHasTheFeaturesOfTheUncorrectedMotion) {
   motions = out("motions");
   std::filesystem::create_directories(motions);
@@ -206,6 +221,18 @@ TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
   config.training.seed += 1;
   EXPECT_THROW(run(config), std::invalid_argument);
   EXPECT_EQ(run::results_of(out("run")), before);
+}
+
+TEST_F(Pretrain, RefusesAFolderWithASettingThatIsNoneToday) {
+  const PretrainConfig config = pretraining("run");
+  pretrain_once("run");
+  const std::filesystem::path manifest = out("run") / "manifest.json";
+  std::string text = read_file(manifest);
+  const std::string opening = "\"settings\": {";
+  text.insert(text.find(opening) + opening.size(), "\"step_factor\": 2.0,");
+  write_file_atomically(manifest, text);
+  EXPECT_NE(refusal_of([&] { run(config); }).find("settings/step_factor is 2.0 there, not set here"),
+            std::string::npos);
 }
 
 TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {

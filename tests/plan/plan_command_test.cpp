@@ -306,6 +306,23 @@ TEST_F(PlanMotions, RejectsAFolderOfOtherSettings) {
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 
+TEST_F(PlanMotions, GoesOnWithMoreMotionsButNotWhereASettingIsNoneToday) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  const auto before = run::results_of(out("run"));
+  run(config);
+  EXPECT_TRUE(run::results_of(out("run")) == before) << "all of it is done";
+  config.run.inputs.push_back(other);
+  run(config);
+  const std::filesystem::path path = out("run") / "manifest.json";
+  record::Manifest manifest = record::read_manifest(path);
+  EXPECT_EQ(manifest.sequences.size(), 2u) << "it goes on with more motions";
+  manifest.settings.emplace_back("plan_trusted", 0.3);
+  write_file_atomically(path, record::format_manifest(manifest));
+  EXPECT_NE(refusal_of([&] { run(config); }).find("plan_trusted is 0.3 there, not set here"),
+            std::string::npos);
+}
+
 TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) { check_settings(PlanningConfig{}); }
 
 TEST(PlanningSettings, RejectsImpossibleValuesByName) {

@@ -149,6 +149,10 @@ TEST_F(Cli, FormerNameOfAMethodIsAcceptedAndSaid) {
   const std::string manifest = read_file(path("out/manifest.json"));
   EXPECT_NE(manifest.find("\"method\": \"options\""), std::string::npos);
   EXPECT_EQ(manifest.find("\"paper\""), std::string::npos);
+  const Call continued = mimicx("adapt --method options" + rest);
+  EXPECT_EQ(continued.status, 0) << continued.text;
+  EXPECT_FALSE(says(continued, "is called"));
+  EXPECT_EQ(read_file(path("out/manifest.json")), manifest) << "the motion is done, under today's name";
 }
 
 TEST_F(Cli, MethodAsPrintedChangesDefaultsAndEachCanBeChangedBack) {

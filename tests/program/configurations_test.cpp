@@ -149,8 +149,8 @@ TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
 
 TEST(Configurations, EverySettingOfTheMethodAsPrintedHasARowInTheDeviations) {
   std::istringstream page(read_file(std::filesystem::path(MIMICX_SOURCE_DIR) / "docs" / "deviations.md"));
-  std::string undo,
-      keep;  // the last cells of the rows: what makes our default the print's; what keeps ours in it
+  // The last cells of the rows: what makes our default the print's, and what keeps ours in it.
+  std::string undo, keep;
   for (std::string line; std::getline(page, line);) {
     const std::size_t cell = line.rfind(" | ", line.size() - 3);
     if (!line.starts_with("| ") || cell == std::string::npos) continue;

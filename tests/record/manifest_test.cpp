@@ -84,6 +84,14 @@ TEST(Manifest, DifferencesCompareEverySetting) {
   EXPECT_TRUE(differs([](Manifest& o) { o.settings.pop_back(); }));
 }
 
+TEST(Manifest, SettingThatIsNoneTodayIsADifference) {
+  Manifest today = example_manifest(), before = today;
+  before.settings.insert(before.settings.begin(), {"step_factor", 2.0});
+  EXPECT_EQ(in_words(today.differences(before)), "step_factor is 2 there, not set here");
+  before.settings.front() = {"never_a_setting", 1.5};
+  EXPECT_EQ(today.differences(before).size(), 1u);
+}
+
 TEST(Manifest, RejectsOtherFilesByName) {
   const TemporaryFolder folder;
   for (const char* bad : {"", "{", "[]", "{\"run\": {}, \"sequences\": []}"}) {
