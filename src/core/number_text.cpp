@@ -1,5 +1,6 @@
 #include "core/number_text.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -59,8 +60,13 @@ std::string formatted(const char* format, ...) {
   std::va_list values, again;
   va_start(values, format);
   va_copy(again, values);
-  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, format, values)), '\0');
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  char shorter[256];  // tables of numbers need no second pass
+  const auto length = static_cast<std::size_t>(std::vsnprintf(shorter, sizeof shorter, format, values));
+  std::string text(shorter, std::min(length, sizeof shorter - 1));
+  if (length >= sizeof shorter) {
+    text.resize(length);
+    std::vsnprintf(text.data(), length + 1, format, again);
+  }
   va_end(again);
   va_end(values);
   return text;

@@ -56,9 +56,7 @@ std::string metric_cell(double value) {
 
 std::string titles() {
   std::string text;
-  for (const auto& d : motion::metric_definitions()) {
-    text += formatted(" %9s", d.name);
-  }
+  for (const auto& d : motion::metric_definitions()) text += formatted(" %9s", d.name);
   return text;
 }
 

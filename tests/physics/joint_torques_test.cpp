@@ -210,6 +210,13 @@ TEST(TorqueBound, LeavesUnsaturatedJointsToTheImplicitLaw) {
   EXPECT_LT((lane_of(s.applied.joint_torque[kLeftShoulder], 0) - expected).norm(), 1e-9);
 }
 
+State<double> state_of(const Snapshot& s) {
+  State<double> state;
+  Target<double> target;
+  set_lane(s, 0, state, target);
+  return state;
+}
+
 // The spring of a joint at rest is its stiffness times the distance that fits and references are kept within.
 TEST(JointRange, SpringPushesByTheDistanceFromTheRange) {
   Random random(11, {});
@@ -218,9 +225,7 @@ TEST(JointRange, SpringPushesByTheDistanceFromTheRange) {
   int outside = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const Snapshot s = random_snapshot(random, 1.2, 0.0, 2.0);
-    State<double> state;
-    Target<double> target;
-    set_lane(s, 0, state, target);
+    const State<double> state = state_of(s);
     Data<double> d;
     update_kinematics(model, state, d);
     for (int b = 1; b < kBodies; ++b) {
@@ -248,9 +253,8 @@ TEST(JointRange, TorqueIsSpringAlongTheGradientAndDamperOfTheWholeVelocity) {
   int outside = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const Snapshot s = random_snapshot(random, 1.2, 3.0, 2.0);
-    State<double> moving;
-    Target<double> target;
-    set_lane(s, 0, moving, target);
+    const BodyPoses poses = forward_kinematics(character, s.p_root, s.q);
+    const State<double> moving = state_of(s);
     State<double> still = moving;
     for (auto& omega : still.omega) omega = zero3<double>();
     Data<double> d, at_rest;
@@ -259,7 +263,7 @@ TEST(JointRange, TorqueIsSpringAlongTheGradientAndDamperOfTheWholeVelocity) {
     for (int b = 1; b < kBodies; ++b) {
       compute_range(model, moving, b, d);
       compute_range(model, still, b, at_rest);
-      const Matrix3d R = forward_kinematics(character, s.p_root, s.q).q_WB[b].toRotationMatrix();
+      const Matrix3d R = poses.q_WB[b].toRotationMatrix();
       const Vector3d torque = to_eigen(d.tau_range[b]), spring = to_eigen(at_rest.tau_range[b]);
       const bool is_outside = spring.norm() > 1e-6;
       outside += is_outside ? 1 : 0;
