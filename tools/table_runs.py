@@ -6,6 +6,7 @@ import pathlib
 import statistics
 import subprocess
 import sys
+import tempfile
 
 
 def call(*arguments, statuses=(0, 1)):
@@ -57,13 +58,30 @@ class Runs:
             done.write_text(f"{call(self.program, *arguments, '--out', out):.2f}\n")
         return out
 
-    def scores(self, truth, motions):
-        """{name: {metric: value}} of the motions in a folder, by `mimicx evaluate`; beside it, made once."""
-        table = motions.with_suffix(".scores.json")
+    def scores(self, truth, motions, table=None):
+        """{name: {metric: value}} of the motions in a folder, by `mimicx evaluate`; in the table, made once (default: beside
+        the folder)."""
+        table = table or motions.with_suffix(".scores.json")
         if not table.exists():
             call(self.program, "evaluate", "--truth", truth, "--motions", motions, "--json", table)
         return {m["name"]: {k: v["value"] for k, v in m["metrics"].items()}
                 for m in json.loads(table.read_text())["motions"] if m["status"] == "ok"}
+
+    def needs(self, folder):
+        """{name: summary} of what `mimicx audit --poses` finds of the motions in a folder."""
+        with tempfile.TemporaryDirectory() as there:
+            table = pathlib.Path(there, "audit.json")
+            call(self.program, "audit", "--poses", folder, "--json", table)
+            files = json.loads(table.read_text())["files"]
+        return {pathlib.Path(f["file"]).stem: f["summary"] for f in files if f.get("summary")}
+
+    @staticmethod
+    def link(target, folder, name=None):
+        """A link in the folder that is the target, under its own name or another."""
+        link = folder / (name or target.name)
+        if not link.exists():
+            link.symlink_to(target.resolve())
+        return link
 
     @staticmethod
     def entries(run):
