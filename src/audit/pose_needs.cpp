@@ -22,6 +22,7 @@ struct RawNeed {
 struct FramePoints {
   List<Vector3d> p;     ///< lowest points of the character's contact points, m
   List<double> height;  ///< theirs over the ground, m
+  double in_box = 0.0;  ///< as in `PoseNeed`
   Vector3d center;
 };
 
@@ -52,6 +53,8 @@ FramePoints frame_points(const Character& c, const BodyPoses& poses, const Scene
   for (const ContactPoint& point : c.contact_points) {
     points.p.push_back(lowest_position(point, poses));
     points.height.push_back(scene.clearance(points.p.back()));
+    const Vector3d centre = points.p.back() + point.radius * Vector3d::UnitZ();
+    points.in_box = std::max(points.in_box, scene.way_out(centre, point.radius).depth);
   }
   return points;
 }
@@ -151,7 +154,10 @@ PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& 
                               possible_pushes(character, points, t, m, config.reach));
   needs.frames[0] = needs.frames[1];
   needs.frames[n - 1] = needs.frames[n - 2];
-  for (int t = 0; t < n; ++t) needs.frames[t].lowest = motion::lowest_height(points[t].p, scene);
+  for (int t = 0; t < n; ++t) {
+    needs.frames[t].lowest = motion::lowest_height(points[t].p, scene);
+    needs.frames[t].in_box = points[t].in_box;
+  }
   return needs;
 }
 

@@ -13,7 +13,7 @@ namespace {
 /// Sums over the frames.
 struct Totals {
   double force = 0.0, moment = 0.0, largest_force = 0.0, largest_moment = 0.0, torque = 0.0,
-         lowest = HUGE_VAL;
+         lowest = HUGE_VAL, in_box = 0.0;
   int worst_frame = 0, infeasible = 0, over_torque = 0;
   double worst = 0.0;  ///< force and moment per metre of the worst frame, N
   Array<int, kWrongs> wrong{};
@@ -30,6 +30,7 @@ Totals totals_of(const PoseNeeds& needs) {
     sum.largest_force = std::max(sum.largest_force, force);
     sum.largest_moment = std::max(sum.largest_moment, moment);
     sum.lowest = std::min(sum.lowest, need.lowest);
+    sum.in_box = std::max(sum.in_box, need.in_box);
     if (hypot(force, moment) > sum.worst) {
       sum.worst = hypot(force, moment);
       sum.worst_frame = t;
@@ -82,7 +83,7 @@ std::string_view name_of(Wrong wrong) {
 Wrong wrong_with(const PoseNeed& need, double weight) {
   const double force = need.force.norm(), moment = need.moment.norm();
   if (!(std::max(force, moment) > kTooMuch * weight))
-    return need.lowest < -kTooDeep ? Wrong::kSunk : Wrong::kNothing;
+    return std::max(-need.lowest, need.in_box) > kTooDeep ? Wrong::kSunk : Wrong::kNothing;
   const double up = need.force.z(), sideways = need.force.head<2>().norm();
   const double largest = std::max({up, -up, sideways, moment});
   if (largest == up) return Wrong::kHovers;
@@ -107,6 +108,7 @@ std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs) {
     stretch.force = std::max(stretch.force, need.force.norm());
     stretch.moment = std::max(stretch.moment, need.moment.norm());
     stretch.depth = std::max(stretch.depth, -need.lowest);
+    stretch.in_box = std::max(stretch.in_box, need.in_box);
     ++count[static_cast<int>(wrong)];
     stretch.wrong = static_cast<Wrong>(std::max_element(count.begin(), count.end()) - count.begin());
   }
@@ -132,7 +134,8 @@ std::string in_words(const Stretch& stretch) {
     case Wrong::kTipsOver:
       return frames + formatted("the body tips over; %.0f N m would have to hold it", stretch.moment);
     case Wrong::kSunk:
-      return frames + formatted("the body is %.0f mm in the floor", kMm * stretch.depth);
+      return frames + formatted("the body is %.0f mm in %s", kMm * std::max(stretch.depth, stretch.in_box),
+                                stretch.in_box > stretch.depth ? "a box" : "the floor");
     default:
       return frames + "nothing is wrong";
   }
@@ -165,7 +168,8 @@ PoseVerdict verdict_on(const PoseNeeds& needs) {
                           {"longest_last", any ? 1.0 * longest.last : NAN},
                           {"over_torque_share", sum.over_torque / n},
                           {"torque_max_share", sum.torque},
-                          {"lowest_mm", kMm * sum.lowest}});
+                          {"lowest_mm", kMm * sum.lowest},
+                          {"in_box_mm", kMm * sum.in_box}});
   verdict.joints_over = joints_over(sum.over);
   verdict.over_in_words = over_in_words(sum.over);
   verdict.words = words_for(needs, sum, longest);

@@ -3,7 +3,7 @@
 /// A frame is infeasible if it needs an external force of more than 5 % of the weight, or an external moment
 /// of more than 5 cm times the weight (`kTooMuch`). The fault is named after the largest of four: force up,
 /// force down, force sideways, and moment per metre. A frame that needs nothing is also infeasible if a
-/// contact point is more than 5 cm under the floor (`kTooDeep`).
+/// contact point is more than 5 cm under the floor or in a side of a box (`kTooDeep`).
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ enum class Wrong {
   kTurns,     ///< needs a moment, without contact
   kSlips,     ///< needs more force sideways than friction can give
   kTipsOver,  ///< needs a moment: the needed centre of pressure is outside the contacts
-  kSunk       ///< needs nothing, but is deep under the floor
+  kSunk       ///< needs nothing, but is deep under the floor or in a box
 };
 inline constexpr int kWrongs = 8;
 /// "feasible", "hovers", "pulled", "drifts", "turns", "slips", "tips", "sunk".
@@ -40,6 +40,7 @@ struct Stretch {
   Wrong wrong = Wrong::kNothing;     ///< in most of them
   double force = 0.0, moment = 0.0;  ///< largest of them, N, N·m
   double depth = 0.0;                ///< of the deepest point in the floor, m
+  double in_box = 0.0;               ///< of the deepest point in a side of a box, m
   int frames() const { return last - first + 1; }
 };
 std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs);

@@ -124,6 +124,21 @@ TEST(PoseNeeds, MotionInTheFloorIsSunk) {
 }
 
 /// A rigid pose that falls from rest, and one that falls half again as fast.
+TEST(PoseNeeds, LegInTheSideOfABoxIsSunk) {
+  motion::Clip clip = exact("stand");
+  const Character character = motion::character_of(clip);
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  const Vector3d knee = poses[0].p_WB[kLeftKnee];
+  const auto words_beside = [&](double gap) {  // of the side of a box, from the left knee's centre
+    clip.scene.plates = {
+        {.centre = {knee.x() + gap + 1.0, knee.y()}, .half_extents = {1.0, 1.0}, .height = 0.6}};
+    return verdict_on(needs_of_poses(character, poses, clip.fps, {}, clip.scene)).words;
+  };
+  EXPECT_EQ(words_beside(0.3).find("mm in"), std::string::npos) << words_beside(0.3);
+  const std::string words = words_beside(-0.1);
+  EXPECT_NE(words.find("mm in a box; 100 % of the frames are infeasible"), std::string::npos) << words;
+}
+
 TEST(PoseNeeds, FlightNeedsNothingAndAFasterFallIsPulled) {
   const motion::Clip clip = motion::standing_clip(1);
   const Character c = motion::character_of(clip);
