@@ -63,7 +63,7 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs)
   std::size_t done = 0, failed = 0;
   double next = record::steady_seconds() + record::kProgressSeconds;
   table_stream(a.json) << audit::pose_table_head();
-  audit::judge_poses(inputs, config, [&](const audit::PoseFile& file) {
+  audit::audit_pose_files(inputs, config, [&](const audit::PoseFile& file) {
     ++done;
     if (file.failure.empty()) {
       table_stream(a.json) << audit::format_poses(file);
@@ -109,8 +109,10 @@ void declare_audit(CommandLine& line) {
   command.path("--frames-csv", a->frames_csv, "with --poses: a row per frame").needs(poses);
   command.path("--json", a->json,
                "also write all values as JSON; without --poses also all rows; -: to standard output");
-  command.number("--reach-mm", a->reach_mm, {0.0, 1000.0},
-                 "with --poses: a point up to this far above the floor touches it");
+  command
+      .number("--reach-mm", a->reach_mm, {0.0, 1000.0},
+              "with --poses: a point up to this far above the floor touches it")
+      .needs(poses);
   add_read_arguments(command, a->config.read);
   add_threads(command, a->config.threads);
   add_force(command, a->force);

@@ -53,25 +53,25 @@ int certify(const CertifyArguments& a) {
   if (a.replay) return replay(a);
   if (!a.json.empty()) throw UsageError("certify: --json has the results of --replay alone");
   if (a.out.empty()) throw UsageError("certify: --out is needed: the folder of the certificates");
-  const std::vector<std::string> inputs = files::paths_of(files::find_motions(a.inputs, {}, &std::cerr));
-  const auto in_folder = [&](const std::string& motion, const char* suffix) {
-    return a.out / (std::filesystem::path(motion).stem().string() + suffix);
+  const std::vector<files::MotionInput> inputs = files::find_motions(a.inputs, {}, &std::cerr);
+  const auto certificate_path = [&](const files::MotionInput& input) {
+    return a.out / (input.name + ".cert");
   };
-  const auto certificate_path = [&](const std::string& motion) { return in_folder(motion, ".cert"); };
-  const auto copy_path = [&](const std::string& motion) { return in_folder(motion, ".npz"); };
-  record::Outputs outputs(inputs, a.force);
-  for (const std::string& path : inputs) {
-    outputs.claim(certificate_path(path), "MIMICERT");
-    outputs.claim(copy_path(path), "PK");
+  const auto copy_path = [&](const files::MotionInput& input) { return a.out / (input.name + ".npz"); };
+  record::Outputs outputs(files::paths_of(inputs), a.force);
+  for (const files::MotionInput& input : inputs) {
+    outputs.claim(certificate_path(input), "MIMICERT");
+    outputs.claim(copy_path(input), "PK");
   }
-  make_folder(a.out);
   bool all_good = true;
-  for (const std::string& path : inputs) {
+  for (const files::MotionInput& input : inputs) {
     try {
-      write_file_atomically(certificate_path(path), audit::certify_file(path));
-      write_file_atomically(copy_path(path), read_file(path));
+      const std::string certificate = audit::certify_file(input.path);
+      make_folder(certificate_path(input).parent_path());
+      write_file_atomically(certificate_path(input), certificate);
+      write_file_atomically(copy_path(input), read_file(input.path));
     } catch (const std::exception& error) {
-      std::cerr << path << ": left out: " << reason_of(error) << '\n';
+      std::cerr << input.path << ": left out: " << reason_of(error) << '\n';
       all_good = false;
     }
   }

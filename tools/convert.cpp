@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "files/exchange/exchange_file.h"
 #include "files/exchange/qpos.h"
+#include "files/recorded_forces.h"
 #include "import/motion_file.h"
 #include "motion/resample.h"
 #include "record/outputs.h"
@@ -46,6 +47,9 @@ int convert(const ConvertArguments& a) {
     clip = motion::resampled(clip, 30.0);
     config.forces_lost = "one at another frame rate than it was simulated at (--rate 30)";
   }
+  if (!config.forces_lost.empty() && files::remove_recorded(clip))
+    std::cerr << a.in.string() << ": without its forces: expected the motion as it was simulated, found "
+              << config.forces_lost << '\n';
   run::tell_decisions(a.in.string(), clip, std::cerr);
   const std::string suffix = import::lower_suffix(a.out);
   const bool has_place = suffix == ".glb" || (suffix == ".npz" && a.out.stem().extension() != ".qpos");

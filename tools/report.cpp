@@ -55,6 +55,11 @@ int report(const ReportArguments& a) {
   if (!a.truth.empty()) options.truth = judge::named_motions(a.truth);
   bool all_good = true;
   for (const record::SequenceEntry& entry : manifest.sequences) {
+    if (!entry.output.empty() && !std::filesystem::exists(folder.root / entry.output)) {
+      std::cerr << entry.name << ": its page is empty: expected " << (folder.root / entry.output).string()
+                << ", found no file\n";
+      all_good = false;
+    }
     if (a.truth.empty() || options.truth.contains(entry.name)) continue;
     std::cerr << entry.name << ": " << a.truth.string() << " has no truth of that name\n";
     all_good = false;

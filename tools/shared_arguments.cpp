@@ -28,9 +28,9 @@ void add_read_arguments(Command& command, import::ReadConfig& read, bool prepare
                   "docs/scenes.md; ") +
           (prepares ? "auto: found from each motion; " : "") + "default: the files' own, else a flat floor");
   command.number(
-      "--mass", read.mass, kPositive,
+      "--mass", read.mass, {1.0, 500.0},
       "mass of the person, kg; default: the usual one of the stature, where the shape comes from joints");
-  command.number("--height", read.height, kPositive,
+  command.number("--height", read.height, {0.3, 3.0},
                  "stature of the person, m; default: that of the file's shape");
   command.choice("--body", read.standard_body, {{"file", false}, {"standard", true}},
                  "file: the file's body shape, if it has one; standard: the standard body");

@@ -177,6 +177,11 @@ record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& 
   if (!json.empty() && run.shard)
     throw UsageError(
         "--json: a shard has a part of the results; `mimicx merge` joins them, whose --json counts them");
+  std::error_code missing;
+  for (const std::string& input : run.inputs)  // a run's folder holds no inputs: such a run could not go on
+    if (std::filesystem::is_directory(input, missing) && !run.out.empty() &&
+        std::filesystem::equivalent(input, run.out, missing))
+      throw UsageError("--out: expected a folder for the results alone, found that of the inputs, " + input);
   record::Json runs = record::Json::array();
   const std::vector<files::MotionInput> inputs = files::find_motions(run.inputs, run.out, &context.messages);
   const std::vector<std::string> files = files::paths_of(inputs);

@@ -1,5 +1,6 @@
-/* verify FILE|FOLDER...: prints the rules of a file, and of the certificates of a folder those that fail.
- * Exit status: 0 if all are accepted, 1 if one is rejected, 2 if one is broken or cannot be read. */
+/* verify FILE|FOLDER...: prints the rules of a file, and of the certificates of a folder, and of the folders in it,
+ * those that fail. Exit status: 0 if all are accepted, 1 if one is rejected, 2 if one is broken or cannot be read, or
+ * there are none in a folder. */
 #define _POSIX_C_SOURCE 200809L
 #include "verify.h"
 #include <dirent.h>
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int worst = ACCEPTED; /* of the statuses of all files */
+static int worst = ACCEPTED, files = 0; /* the worst of their statuses */
 
 /* Reads a file behind `used` bytes of a block, which grows, and returns its size: -1 if it cannot be read. */
 static long append_file(unsigned char **block, long used, const char *path) {
@@ -15,8 +16,7 @@ static long append_file(unsigned char **block, long used, const char *path) {
     if (file == NULL) return -1;
     long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
     unsigned char *grown = size < 0 ? NULL : realloc(*block, (size_t)used + (size_t)size + 1);
-    if (grown != NULL) *block = grown;
-    rewind(file);
+    if (grown != NULL) *block = grown, rewind(file);
     if (grown == NULL || fread(grown + used, 1, (size_t)size, file) != (size_t)size) size = -1;
     fclose(file);
     return size;
@@ -36,10 +36,7 @@ static void print_verdict(const char *path, int status, const Rule *rules, int a
 }
 /* Verifies NAME.cert and NAME.npz beside it. */
 static void verify_file(const char *path, int all_rules) {
-    Rule rules[RULES];
-    unsigned char *block = NULL;
-    const char *wrong = "cannot be read";
-    char motion_path[4096];
+    Rule rules[RULES]; const char *wrong = "cannot be read"; unsigned char *block = NULL; char motion_path[4096];
     snprintf(motion_path, sizeof motion_path, "%.*s.npz", (int)strlen(path) - 5, path);
     long size = append_file(&block, 0, path), motion_size = size < 0 ? -1 : append_file(&block, size, motion_path);
     const unsigned char *motion = motion_size < 0 ? NULL : block + size;
@@ -47,25 +44,29 @@ static void verify_file(const char *path, int all_rules) {
     if (status == BROKEN) fprintf(stderr, "%s: %s\n", path, wrong);
     else print_verdict(path, status, rules, all_rules, motion != NULL);
     if (status > worst) worst = status;
+    files++;
     free(block);
 }
-/* Verifies the certificates of a folder. */
+/* Verifies the certificates of a folder and of the folders in it. */
 static void verify_folder(DIR *folder, const char *path) {
     for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
-        char name[4096];
-        const char *suffix = strrchr(entry->d_name, '.');
+        char name[4096]; const char *suffix = strrchr(entry->d_name, '.');
         snprintf(name, sizeof name, "%s/%s", path, entry->d_name);
-        if (suffix != NULL && strcmp(suffix, ".cert") == 0) verify_file(name, 0);
+        DIR *inner = entry->d_name[0] == '.' ? NULL : opendir(name);
+        if (inner != NULL) verify_folder(inner, name);
+        else if (suffix != NULL && strcmp(suffix, ".cert") == 0) verify_file(name, 0);
     }
     closedir(folder);
 }
 
 int main(int count, char **paths) {
-    if (count < 2) fprintf(stderr, "usage: verify FILE|FOLDER...\n");
+    int help = count > 1 && strcmp(paths[1], "--help") == 0;
+    if (count < 2 || help) return fprintf(stderr, "usage: verify FILE|FOLDER...\n"), help ? ACCEPTED : BROKEN;
     for (int i = 1; i < count; i++) {
-        DIR *folder = opendir(paths[i]);
+        int before = files; DIR *folder = opendir(paths[i]);
         if (folder != NULL) verify_folder(folder, paths[i]);
         else verify_file(paths[i], 1);
+        if (files == before) worst = BROKEN, fprintf(stderr, "%s: expected NAME.cert, found none\n", paths[i]);
     }
-    return count < 2 ? BROKEN : worst;
+    return worst;
 }

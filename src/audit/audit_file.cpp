@@ -34,6 +34,11 @@ record::Json to_json(const Audit& audit) {
           {"rows", rows}};
 }
 
+/// Whether files are read as other motions than they hold.
+bool changes_motions(const import::ReadConfig& read) {
+  return read.up || read.scale || read.fps || read.floor || read.mass || read.height || read.standard_body;
+}
+
 }  // namespace
 
 SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
@@ -72,6 +77,9 @@ std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::
     const bool steps = holds_substeps(npz), forces = steps || (npz.has("joint_torques") && !poses_alone);
     if (forces && read.scene)
       throw DataError(path.string(), "--scene", "none: the file's forces were made on its own scene", "one");
+    if (forces && changes_motions(read))
+      throw DataError(path.string(), "",
+                      "no other reading: the file's forces were made with the motion as it is", read.text());
     if (steps) {
       const SubstepMotion motion = read_substeps(npz);
       return {audit_steps(motion), audit_replayed_steps(motion)};

@@ -22,6 +22,16 @@ double shift_to_floor(const Character& c, const PerFrame<BodyPoses>& poses, cons
   return -quantile(std::move(lowest), kFloorShare);
 }
 
+/// The poses, moved to the floor where it is not known, and their upward shift, m.
+std::pair<PerFrame<BodyPoses>, double> on_floor(const Character& c, const motion::Clip& clip) {
+  PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  if (clip.body_model == "mimicx" || clip.on_floor) return {poses, 0.0};
+  const double shift = shift_to_floor(c, poses, clip.scene);
+  for (BodyPoses& frame : poses)
+    for (Vector3d& p : frame.p_WB) p.z() += shift;
+  return {poses, shift};
+}
+
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -55,23 +65,24 @@ int weakest_joint(const PoseNeed& need) {
 
 }  // namespace
 
-PoseFile judge_poses(const std::string& path, const PoseFilesConfig& config) {
+std::pair<PoseNeeds, double> needs_on_floor(const motion::Clip& clip, const PoseNeedsConfig& config) {
+  const Character character = motion::character_of(clip);
+  const auto [poses, shift] = on_floor(character, clip);
+  return {needs_of_poses(character, poses, clip.fps, config, clip.scene), shift};
+}
+
+PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config) {
   PoseFile file;
   file.path = path;
   try {
     const motion::Clip clip = import::read_motion(path, config.read);
     motion::require_usable(clip, 3);
     const Character character = motion::character_of(clip);
-    PerFrame<BodyPoses> poses = motion::poses_of(clip);
-    if (clip.body_model != "mimicx" && !clip.on_floor) {
-      file.floor_shift = shift_to_floor(character, poses, clip.scene);
-      for (BodyPoses& frame : poses)
-        for (Vector3d& p : frame.p_WB) p.z() += file.floor_shift;
-    }
+    const auto [poses, shift] = on_floor(character, clip);
+    file.floor_shift = shift;
     file.needs = needs_of_poses(character, poses, clip.fps, config.needs, clip.scene);
     file.verdict = verdict_on(file.needs);
-    file.slip = slip_of(poses, best_floor_forces(character, poses, clip.fps, clip.scene), file.needs.weight,
-                        clip.fps, clip.scene);
+    file.slip = slip_of_poses(character, poses, clip.fps, clip.scene);
     file.slip.speed.clear();
     if (!config.frames) file.needs.frames.clear();
   } catch (const std::exception& error) {
@@ -80,13 +91,13 @@ PoseFile judge_poses(const std::string& path, const PoseFilesConfig& config) {
   return file;
 }
 
-void judge_poses(const std::vector<std::string>& paths, const PoseFilesConfig& config,
-                 const std::function<void(const PoseFile&)>& judged) {
+void audit_pose_files(const std::vector<std::string>& paths, const PoseFilesConfig& config,
+                      const std::function<void(const PoseFile&)>& judged) {
   const List<std::string> all(paths);
   for (int begin = 0; begin < all.count(); begin += kBatch) {
     List<PoseFile> files(std::min(kBatch, all.count() - begin));
     parallel_for(files.count(), config.threads,
-                 [&](int i) { files[i] = judge_poses(all[begin + i], config); });
+                 [&](int i) { files[i] = audit_pose_file(all[begin + i], config); });
     for (const PoseFile& file : files) judged(file);
   }
 }

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "audit/pose_verdict.h"
@@ -33,11 +34,15 @@ struct PoseFile {
   Slip slip;        ///< with the best floor forces; without speeds
 };
 
+/// The needs of a motion, moved to the floor as above, and its upward shift, m.
+/// @throws std::invalid_argument as `needs_of_poses`
+std::pair<PoseNeeds, double> needs_on_floor(const motion::Clip& clip, const PoseNeedsConfig& config = {});
+
 /// @return with a failure if the file cannot be judged
-PoseFile judge_poses(const std::string& path, const PoseFilesConfig& config);
+PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config);
 /// Judges all files in parallel; `judged` gets the results in the order of `paths` for any number of threads.
-void judge_poses(const std::vector<std::string>& paths, const PoseFilesConfig& config,
-                 const std::function<void(const PoseFile&)>& judged);
+void audit_pose_files(const std::vector<std::string>& paths, const PoseFilesConfig& config,
+                      const std::function<void(const PoseFile&)>& judged);
 
 /// The table's heading, and the line of a motion.
 std::string pose_table_head();

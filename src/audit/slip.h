@@ -5,8 +5,8 @@
 /// moves in a frame is the foot's slip. Slips count by their load, so a foot that hardly touches hardly
 /// counts. Loads are the recorded forces of a simulated motion. For poses alone they are the best floor
 /// forces: those that explain the motion, with the least slip, on the points that are lowest in the frame.
-/// Their floor is the lowest point of each frame, over the ground of the scene, so an input that hovers,
-/// sinks or drifts in height can be compared with a result that stands.
+/// Their floor is where the lowest standing points around each frame are, over the ground of the scene, so an
+/// input that hovers, sinks or drifts in height can be compared with a result that stands.
 ///
 /// What it does not do: a whole body that flies is not detected by its height, but by its needs: it falls,
 /// so nothing loads its feet.
@@ -41,8 +41,14 @@ Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, doub
              const Scene& scene = {});
 
 /// The forces that a motion needs from the floor, as far as its lowest points can supply them, (3), (4).
-/// Zero for fewer than 3 frames.
-FloorWrenches best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                                const Scene& scene = {});
+struct FloorForces {
+  FloorWrenches ground;     ///< zero for fewer than 3 frames
+  PerFrame<double> height;  ///< of the floor that gives them, over the ground of the scene, m
+};
+FloorForces best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                              const Scene& scene = {});
+/// Slip by these forces.
+Slip slip_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                   const Scene& scene = {});
 
 }  // namespace mimicx::audit

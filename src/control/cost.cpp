@@ -4,8 +4,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "control/box_sides.h"
 #include "control/centroidal_momentum.h"
+#include "control/legs_in_boxes.h"
 #include "control/sole_slip.h"
 #include "core/error.h"
 

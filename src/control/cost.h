@@ -11,11 +11,11 @@
 /// controls keep the motion smooth.
 ///
 /// v and ℓ are the velocity of the centre of mass and the angular momentum about it per unit of mass
-/// (centroidal_momentum.h): their changes are the forces of the floor. r_j is the slip of
-/// the n points of the soles (sole_slip.h), o_j the depth of the legs in the sides of boxes (box_sides.h). K
-/// e/m are the PD controllers' elastic torques per unit of mass: stiffness times the distance of a joint from
-/// its target, moved ahead by its damping. The factors c and m say what is known of the reference in a frame
-/// (FrameFactors).                       docs/control.md §6
+/// (centroidal_momentum.h): their changes are the forces of the floor. r_j is the slip of the n points of the
+/// soles (sole_slip.h), o_j the depth of the legs in the sides of boxes (legs_in_boxes.h). K e/m are the PD
+/// controllers' elastic torques per unit of mass: stiffness times the distance of a joint from its target,
+/// moved ahead by its damping. The factors c and m say what is known of the reference in a frame
+/// (FrameFactors).                                                                      docs/control.md §6
 #pragma once
 
 #include <Eigen/Core>

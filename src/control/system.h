@@ -38,7 +38,7 @@ struct SolePoint {
   Vector3d p_B;  ///< m
 };
 
-/// A sphere that stands for a part of a leg in the sides of boxes (box_sides.h).
+/// A sphere that stands for a part of a leg in the sides of boxes (legs_in_boxes.h).
 struct LegSphere {
   int body;
   Vector3d p_B;   ///< centre, m

@@ -1,31 +1,19 @@
 #include "files/clean_copy.h"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "core/file.h"
+#include "files/recorded_forces.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 
 namespace mimicx::files {
 namespace {
 
-/// Members of a simulated motion that belong to the body it was simulated with.
-constexpr std::array<std::string_view, 10> kOfTheBody = {
-    "joints",           "velocities",      "joint_torques",
-    "range_torques",    "ground_wrenches", "self_contact_wrenches",
-    "foot_force_least", "foot_force_most", "foot_force_least_effort",
-    "body_weight"};
-
 /// Chooses the body of a copy. @return a message that says which
 std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
   if (original.body_model == clean.body_model && original.rest_joints == clean.rest_joints)
     return "on the simulated body";
   motion::put_on_body_of(original, clean);
-  std::erase_if(clean.passthrough, [](const auto& member) {
-    return std::find(kOfTheBody.begin(), kOfTheBody.end(), member.first) != kOfTheBody.end();
-  });
+  remove_recorded(clean);
   return "on the input's body, " + original.body_model +
          "; joints and forces stand beside the simulated body";
 }

@@ -1,11 +1,20 @@
 #include "files/recorded_forces.h"
 
+#include <algorithm>
+#include <string_view>
+
+#include "core/containers.h"
 #include "files/archive_members.h"
 
 namespace mimicx::files {
 namespace {
 
 constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques";
+constexpr Array<std::string_view, 10> kRecorded = {
+    "joints",           "velocities",      "joint_torques",
+    "range_torques",    "ground_wrenches", "self_contact_wrenches",
+    "foot_force_least", "foot_force_most", "foot_force_least_effort",
+    "body_weight"};
 
 }  // namespace
 
@@ -19,6 +28,12 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip) {
   const WrenchRows ground = read_wrenches(npz, kGround, rows);
   const VectorRows torques = read_joints(npz, kTorques, rows);
   return RecordedForces{{ground}, {torques}};
+}
+
+bool remove_recorded(motion::Clip& clip) {
+  return std::erase_if(clip.passthrough, [](const auto& member) {
+           return std::find(kRecorded.begin(), kRecorded.end(), member.first) != kRecorded.end();
+         }) > 0;
 }
 
 }  // namespace mimicx::files

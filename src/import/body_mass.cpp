@@ -12,7 +12,8 @@ namespace {
 constexpr double kStandardStature = 1.718;  ///< m, of the standard body from its soles to the top of its head
 constexpr double kBodyMassIndex = 0.5 * (73.0 / (1.76 * 1.76) + 60.0 / (1.63 * 1.63));  ///< kg/m²
 constexpr int kGirth = 1, kSize = 0;                                                    ///< indices of β
-constexpr double kSizeGain = 0.03;                                                      ///< of β₀
+constexpr double kToldMass = 0.5;   ///< kg: a difference that the user has to know
+constexpr double kSizeGain = 0.03;  ///< of β₀
 
 BodyLengths lengths_of_shape(const std::array<double, kBetas>& betas) {
   return lengths_of(joint_offsets(betas));
@@ -67,6 +68,13 @@ std::string settle_body(const KnownBody& known, std::array<double, kBetas>& beta
     betas[kSize] = std::clamp(betas[kSize] + (size - 1.0) / kSizeGain, -kMaxBeta, kMaxBeta);
   }
   return settle_mass(known, betas);
+}
+
+std::string mass_warning(const KnownBody& known, const std::array<double, kBetas>& betas) {
+  const double mass = make_character(betas).total_mass();
+  if (std::isnan(known.mass) || std::abs(mass - known.mass) < kToldMass) return "";
+  return formatted("mass: %.1f kg, because our body cannot have the %.1f kg of --mass at its size", mass,
+                   known.mass);
 }
 
 }  // namespace mimicx::import

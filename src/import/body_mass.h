@@ -41,4 +41,7 @@ std::string settle_mass(const KnownBody& known, std::array<double, kBetas>& beta
 /// @return the decision, one line
 std::string settle_body(const KnownBody& known, std::array<double, kBetas>& betas);
 
+/// A warning where the body does not have the mass that the user knows; otherwise empty.
+std::string mass_warning(const KnownBody& known, const std::array<double, kBetas>& betas);
+
 }  // namespace mimicx::import

@@ -93,12 +93,15 @@ void choose_body(const ReadConfig& o, motion::Clip& clip) {
     clip.decisions.push_back("body: the standard one, the file's model is " + clip.body_model);
   }
   if (!o.mass && !o.height) return;
-  if (clip.rest_joints)
+  if (clip.rest_joints) {
     clip.warnings.emplace_back("--mass and --height change no body whose joints are known");
-  else if (foreign)
+  } else if (foreign) {
     clip.warnings.emplace_back("--mass and --height change no body of another body model");
-  else
+  } else {
     clip.decisions.push_back(settle_body(known_body(o), clip.betas));
+    const std::string warning = mass_warning(known_body(o), clip.betas);
+    if (!warning.empty()) clip.warnings.push_back(warning);
+  }
 }
 
 void settle_scale(const ReadConfig& o, bool believed, motion::Clip& clip) {
@@ -476,7 +479,7 @@ std::string_view written_opening(const std::filesystem::path& path) {
 void write_motion(const std::filesystem::path& path, const motion::Clip& clip) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".npz")
-    motion::write_clip(path, clip, {{"joints", motion::joints_member(clip)}});
+    motion::write_clip(path, clip, {{"joints", motion::joint_positions_member(clip)}});
   else if (suffix == ".npy")
     write_motionx(path, clip);
   else if (suffix == ".bvh")

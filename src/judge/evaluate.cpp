@@ -34,9 +34,9 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const 
   EvaluatedMotion result;
   result.name = name;
   try {
+    motion::Clip clip = import::read_motion(files.motion, read);
     require_truth(files);
-    motion::Clip clip = import::read_motion(files.motion, read),
-                 known = import::read_motion(files.truth, read);
+    motion::Clip known = import::read_motion(files.truth, read);
     share_scene(clip, known);
     const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
                                 truth = samples_at(known, motion::kMetricRate);
@@ -72,11 +72,12 @@ record::Json file_json(const EvaluatedMotion& m) {
 }  // namespace
 
 std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path) {
+  std::vector<files::MotionInput> inputs = files::find_motions({path.string()});
+  for (files::MotionInput& input : inputs)
+    if (input.name.ends_with(".clean")) input.name.resize(input.name.size() - 6);
+  const std::vector<std::string> names = files::unique_names(inputs);
   std::map<std::string, std::filesystem::path> named;
-  for (const files::MotionInput& input : files::find_motions({path.string()})) {
-    const bool clean = input.name.ends_with(".clean");
-    named.emplace(clean ? input.name.substr(0, input.name.size() - 6) : input.name, input.path);
-  }
+  for (std::size_t k = 0; k < inputs.size(); ++k) named[names[k]] = inputs[k].path;
   return named;
 }
 

@@ -29,7 +29,7 @@ struct Pair {
 PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read);
 
 /// The files of a folder, or a single file, by name: the path in the folder without suffix (files/inputs.h);
-/// "walk" also for walk.clean.bvh.
+/// "walk" also for walk.clean.bvh. Equal names are told apart as those of a run's outputs ("walk", "walk-2").
 std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path);
 
 /// Truths and motions by name. A truth and a motion that are both given as files are a pair, whatever their

@@ -539,7 +539,7 @@ void add_scene(const Scene& scene, Npz& npz) {
   if (!scene.flat()) npz.set(kSceneMember, scene_member(scene));
 }
 
-NpyArray joints_member(const Clip& clip) {
+NpyArray joint_positions_member(const Clip& clip) {
   std::vector<double> values;
   for (const BodyPoses& pose : poses_of(clip))
     for (const Vector3d& p : pose.p_WB) values.insert(values.end(), p.data(), p.data() + 3);

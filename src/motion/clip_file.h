@@ -30,7 +30,7 @@ Clip read_clip(const std::filesystem::path& path, const ClipConfig& config = {})
 Clip clip_from(const Npz& npz, const std::string& name, const ClipConfig& config = {});
 
 /// Member `joints`, (frames, 22, 3): the joints of the clip's body in the world, m.
-NpyArray joints_member(const Clip& clip);
+NpyArray joint_positions_member(const Clip& clip);
 
 /// The scene of an archive, member `scene_plates` (plates, 8): centre x, y, yaw, half extents x, y, height,
 /// stiffness, damping of each. Without the member the ground is flat, and a flat ground adds no member.

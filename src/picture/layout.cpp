@@ -36,6 +36,9 @@ std::string in_seconds(double time) { return formatted("%.2f s", time); }
 /// @throws std::invalid_argument
 TimeSpan common_stretch(const List<PosedMotion>& motions, const PictureConfig& config) {
   TimeSpan stretch = config.stretch;
+  if (stretch.first > stretch.last)
+    throw std::invalid_argument("it begins at " + in_seconds(stretch.first) + ", after its end at " +
+                                in_seconds(stretch.last));
   for (const PosedMotion& p : motions) stretch.last = std::min(stretch.last, p.seconds());
   const auto refuse = [&](double time) {
     throw std::invalid_argument(in_seconds(time) + " is not in the motion, which ends at " +

@@ -38,8 +38,11 @@ ReportChart unexplained_chart(const ChartSources& sources) {
        "of the cleaned motion, beyond its recorded forces"},
       {}};
   const auto force = [](const audit::AuditRow& row) { return row.root.tail<3>().norm(); };
-  if (sources.audit_of_input)
-    chart.lines.push_back({Who::kInput, title_of(Who::kInput), per_frame(*sources.audit_of_input, force)});
+  if (sources.needs_of_input) {
+    chart.lines.push_back({Who::kInput, title_of(Who::kInput), {}});
+    for (const audit::PoseNeed& need : sources.needs_of_input->frames)
+      chart.lines.back().values.push_back(need.force.norm());
+  }
   if (sources.audit_of_cleaned)
     chart.lines.push_back(
         {Who::kCleaned, title_of(Who::kCleaned), per_frame(*sources.audit_of_cleaned, force)});

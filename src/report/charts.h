@@ -7,6 +7,7 @@
 
 #include "audit/audit_result.h"
 #include "audit/load_sharing/load_sharing.h"
+#include "audit/pose_needs.h"
 #include "core/npz/npz.h"
 #include "report/report.h"
 
@@ -15,7 +16,7 @@ namespace mimicx::report {
 /// The data to draw; null or empty where a run has none.
 struct ChartSources {
   std::vector<std::pair<Who, const MeasuredMotion*>> motions;  ///< at one frame rate
-  const audit::Audit* audit_of_input = nullptr;                ///< by its poses alone
+  const audit::PoseNeeds* needs_of_input = nullptr;            ///< by its poses alone
   const audit::Audit* audit_of_cleaned = nullptr;              ///< by its recorded forces
   const std::vector<files::FloorArrows>* ground = nullptr;
   const std::vector<audit::LoadSharing>* sharing = nullptr;  ///< a row per row of `ground`

@@ -5,6 +5,7 @@
 
 #include "audit/audit_file.h"
 #include "audit/body_loads.h"
+#include "audit/pose_files.h"
 #include "audit/slip.h"
 #include "core/npz/npz.h"
 #include "core/units.h"
@@ -67,11 +68,11 @@ Seen seen(Who who, const motion::Clip& clip, double fps,
   const motion::Clip at_rate = motion::resampled(clip, fps);
   Seen s{{who, motion::character_of(at_rate), motion::poses_of(at_rate), {}}, {}};
   const Character& character = s.motion.character;
-  const audit::FloorWrenches ground =
-      forces ? forces->ground : audit::best_floor_forces(character, s.motion.poses, fps, clip.scene);
-  s.measured = measured(
-      motion::sample_motion(character, s.motion.poses, fps, clip.scene),
-      audit::slip_of(s.motion.poses, ground, kGravity * character.total_mass(), fps, clip.scene).speed);
+  const PerFrame<BodyPoses>& poses = s.motion.poses;
+  const audit::Slip slip =
+      forces ? audit::slip_of(poses, forces->ground, kGravity * character.total_mass(), fps, clip.scene)
+             : audit::slip_of_poses(character, poses, fps, clip.scene);
+  s.measured = measured(motion::sample_motion(character, poses, fps, clip.scene), slip.speed);
   for (const auto& surface : s.measured.samples.surface)
     s.motion.support.push_back(support_of(surface, clip.scene));
   return s;
@@ -133,13 +134,15 @@ void compare_with_truth(const ClipFiles& files, const std::vector<ReportMetric>&
 
 /// Unexplained forces: of the input by its poses, of the cleaned motion by its recorded forces.
 struct Audits {
-  std::optional<audit::Audit> input, cleaned;
+  std::optional<audit::PoseNeeds> input;
+  std::optional<audit::Audit> cleaned;
 };
 
-Audits audits_of(const ClipFiles& files) {
+Audits audits_of(const ClipFiles& files, double fps) {
   Audits audits;
-  if (files.input && motion::resampled(*files.input, 30.0).frames() > 2)
-    audits.input = audit::audit_poses(*files.input);
+  if (files.input)
+    if (const motion::Clip clip = motion::resampled(*files.input, fps); clip.frames() > 2)
+      audits.input = audit::needs_on_floor(clip).first;
   if (files.cleaned.body_model == "mimicx" && files.members.has("joint_torques") &&
       files.cleaned.frames() > 1)
     audits.cleaned = audit::audit_frames(audit::simulated_frames(files.cleaned, files.members),
@@ -147,10 +150,10 @@ Audits audits_of(const ClipFiles& files) {
   return audits;
 }
 
-double mean_force(const audit::Audit& audit) {
+double mean_force(const audit::PoseNeeds& needs) {
   double sum = 0.0;
-  for (const audit::AuditRow& row : audit.rows) sum += row.root.tail<3>().norm();
-  return audit.rows.empty() ? kNoValue : sum / static_cast<double>(audit.rows.size());
+  for (const audit::PoseNeed& need : needs.frames) sum += need.force.norm();
+  return sum / needs.frames.count();
 }
 
 /// A bar is full where the external force is half the weight, or the moment half the weight times a metre.
@@ -253,7 +256,7 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   ReportClip& clip = made.clip;
   const ClipFiles files = read_files(folder, entry, truth, clip.notes);
   compare_with_truth(files, metrics, made.row);
-  const Audits audits = audits_of(files);
+  const Audits audits = audits_of(files, entry.fps);
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].key == kRootForce && audits.input) made.row.values[k][0] = mean_force(*audits.input);
   clip.scene = files.cleaned.scene;
@@ -262,7 +265,7 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   clip.options = stretches_of(entry);
   ChartSources sources;
   for (const Seen& s : files.motions) sources.motions.emplace_back(s.motion.who, &s.measured);
-  sources.audit_of_input = audits.input ? &*audits.input : nullptr;
+  sources.needs_of_input = audits.input ? &*audits.input : nullptr;
   sources.audit_of_cleaned = audits.cleaned ? &*audits.cleaned : nullptr;
   sources.ground = &clip.ground;
   const PerFrame<audit::LoadSharing> sharing = sharing_of(files);

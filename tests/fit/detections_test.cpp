@@ -1,6 +1,7 @@
 /// Detections that are exchanged, missing or far off, and those of the feet.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -32,15 +33,49 @@ TEST(Fit, FootKeypointsCorrectTheAnkles) {
   EXPECT_LT(with, 2.0);
 }
 
+/// The clip with left and right of its keypoints exchanged in these frames.
+motion::Clip exchanged(motion::Clip clip, std::size_t first, std::size_t end) {
+  for (std::size_t t = first; t < end; ++t) {
+    for (const std::size_t left : std::initializer_list<std::size_t>{
+             kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
+      std::swap(clip.keypoints->uvc[t][left], clip.keypoints->uvc[t][left + 1]);
+  }
+  return clip;
+}
+
+/// Whether a note of the fit has these words.
+bool notes(const FitReport& report, const std::string& words) {
+  return std::any_of(report.notes.begin(), report.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+TEST(Fit, TellsThatKeypointsAreOfAnotherMotion) {
+  const motion::Clip squat = truth_of("squat"), bow = truth_of("bow");
+  motion::Clip input = disturbed(squat, 3), other = disturbed(bow, 3);
+  const int frames = std::min(squat.frames(), bow.frames());
+  FitReport of_own, of_other;
+  fit_keypoints(input, exact_camera(), &of_own);
+  EXPECT_TRUE(of_own.notes.empty()) << of_own.notes[0];
+  input.rotations.resize(static_cast<std::size_t>(frames));
+  input.trans.resize(static_cast<std::size_t>(frames));
+  input.keypoints = other.keypoints;
+  input.keypoints->uvc.resize(static_cast<std::size_t>(frames));
+  fit_keypoints(input, exact_camera(), &of_other);
+  EXPECT_TRUE(notes(of_other, "keypoints of this motion") ||
+              notes(of_other, "of this motion, and of this camera"));
+}
+
+TEST(Fit, TellsThatSidesAreExchangedThroughout) {
+  const motion::Clip input = disturbed(truth_of("walk"), 3);
+  FitReport report;
+  fit_keypoints(exchanged(input, 0, input.rotations.size()), exact_camera(), &report);
+  EXPECT_TRUE(notes(report, "left and right of the keypoints are exchanged in"));
+}
+
 TEST(Fit, RestoresABurstOfExchangedSides) {
   const motion::Clip truth = truth_of("walk"), input = disturbed(truth, 3);
   const motion::Clip expected = fit_keypoints(input, exact_camera(), nullptr);
-  motion::Clip swapped = input;
-  for (std::size_t t = 30; t < 38; ++t) {
-    for (const std::size_t left : std::initializer_list<std::size_t>{
-             kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
-      std::swap(swapped.keypoints->uvc[t][left], swapped.keypoints->uvc[t][left + 1]);
-  }
+  const motion::Clip swapped = exchanged(input, 30, 38);
   FitReport report;
   const motion::Clip fitted = fit_keypoints(swapped, exact_camera(), &report);
   EXPECT_EQ(report.swapped_frames, 8);

@@ -45,6 +45,11 @@ TEST(BodyMass, GivenMassOverridesGivenStatureOverridesTheMean) {
   EXPECT_NEAR(mass_of(betas), 55.0, 1e-6);
   EXPECT_EQ(betas[0], 1.0) << "joints keep their places";
   EXPECT_NE(settle_mass({.mass = 500.0}, betas).find("cannot have 500.0 kg"), std::string::npos);
+  EXPECT_NE(mass_warning({.mass = 500.0}, betas).find("cannot have the 500.0 kg of --mass"),
+            std::string::npos);
+  EXPECT_EQ(mass_warning({.height = 1.9}, betas), "") << "a mass that nobody asked for";
+  settle_mass({.mass = 80.0}, betas);
+  EXPECT_EQ(mass_warning({.mass = 80.0}, betas), "");
   betas = {};
   settle_body({.height = 1.9}, betas);
   EXPECT_NEAR(usual_stature(lengths_of(joint_offsets(betas))), 1.9, 1e-9);

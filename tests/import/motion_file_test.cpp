@@ -265,7 +265,7 @@ TEST(WriteMotion, EveryArchiveHasTheJointsOfItsBody) {
   const motion::Clip clip = foreign("wave");
   write_motion(scratch("joints.npz"), clip);
   EXPECT_EQ(read_npz(scratch("joints.npz")).at("joints").to_double(),
-            motion::joints_member(clip).to_double());
+            motion::joint_positions_member(clip).to_double());
 }
 
 TEST(ReadMotion, RejectsInvalidOptions) {

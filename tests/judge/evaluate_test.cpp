@@ -100,6 +100,24 @@ TEST_F(Evaluate, ListsFilesWithoutAPartner) {
   EXPECT_NE(e.motions[1].reason.find("only_motion"), std::string::npos);
 }
 
+TEST_F(Evaluate, EqualNamesAreToldApart) {
+  add_pair("a", 0.030);
+  import::write_motion(motions / "a.bvh", motion::standing_clip(20));
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 2u);
+  EXPECT_TRUE(e.motions[0].ok) << "a.bvh, the first";
+  EXPECT_NEAR(metric(e.motions[0], "MRPE"), 0.0, 1.0);
+  EXPECT_EQ(e.motions[1].name, "a-2");
+  EXPECT_FALSE(e.motions[1].ok) << "a.npz, whose truth would be a-2";
+}
+
+TEST_F(Evaluate, MissingFileIsNamed) {
+  add_pair("a", 0.0);
+  const Evaluation e = evaluate_folders(truth, motions / "none.npz");
+  ASSERT_EQ(e.motions.size(), 1u);
+  EXPECT_EQ(e.motions[0].reason.find("truth"), std::string::npos) << e.motions[0].reason;
+}
+
 TEST_F(Evaluate, DifferentLengthsFailThatFileOnly) {
   add_pair("a", 0.0);
   add_pair("b", 0.0);

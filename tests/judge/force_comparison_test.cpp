@@ -95,6 +95,24 @@ TEST(ForceComparison, EqualForcesHaveNoErrors) {
   EXPECT_EQ(v.at("in%"), 100.0);
 }
 
+// Our own files have a row in the middle of each interval; those of laboratories begin at any time.
+TEST(ForceComparison, TimesBeginAtFrameZero) {
+  Pressed middles(30), later(30);
+  std::vector<import::ForceSample> rows;
+  for (int t = 1; t < 30; ++t) {
+    rows.push_back(middles.measured.samples[10 * static_cast<std::size_t>(t) - 5]);
+    rows.back().time = (t - 0.5) / 30.0;
+  }
+  middles.measured.samples = {rows.begin(), rows.end()};
+  for (auto& sample : later.measured.samples) sample.time += 100.0;
+  for (const Pressed& pressed : {middles, later}) {
+    const auto v = values_of(pressed);
+    EXPECT_NEAR(v.at("totV"), 0.0, 1e-3);
+    EXPECT_NEAR(v.at("ftV"), 0.0, 1e-3);
+    EXPECT_NEAR(v.at("ftV r"), 1.0, 1e-9);
+  }
+}
+
 TEST(ForceComparison, ErrorsHaveTheirSizeAndSign) {
   Pressed pressed(30);
   const double weight = kGravity * pressed.measured.mass;
@@ -301,7 +319,7 @@ TEST(ForceComparison, PrintsTheTableOfTheStudyInPython) {
       still.push_back(frame);
     }
     motion::write_clip(folder.path / "motions" / (std::string(name) + ".npz"), clip,
-                       {{"joints", motion::joints_member(clip)},
+                       {{"joints", motion::joint_positions_member(clip)},
                         {"velocities", files::velocities_member(still, Precision::kFloat64)},
                         {"joint_torques", files::joints_member(torques, Precision::kFloat64)},
                         {"range_torques", files::joints_member(ranges, Precision::kFloat64)},

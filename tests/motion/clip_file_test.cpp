@@ -361,7 +361,7 @@ TEST(ClipFile, SaysWhatIsMissingAndWhatWasFound) {
 
 TEST(ClipFile, JointsAreThoseOfTheClipsBody) {
   const Clip clip = read(amass());
-  const std::vector<double> joints = joints_member(clip).to_double();
+  const std::vector<double> joints = joint_positions_member(clip).to_double();
   const auto poses = poses_of(clip);
   for (int t = 0; t < poses.count(); ++t)
     for (int b = 0; b < kBodies; ++b)

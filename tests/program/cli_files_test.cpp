@@ -118,6 +118,25 @@ TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
                     "looks like"));
 }
 
+TEST_F(Cli, ConvertLeavesForcesOutThatNoLongerBelongToTheMotion) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(12));
+  ASSERT_EQ(mimicx("plan " + path("a.npz") + " --no-fit --out " + path("run")).status, 0);
+  const std::string planned = path("run/motions/a.npz");
+  const Call same = mimicx("convert " + planned + " " + path("same.npz"));
+  EXPECT_FALSE(says(same, "forces")) << same.text;
+  EXPECT_TRUE(read_npz(path("same.npz")).has("ground_wrenches"));
+  for (const auto& [option, said] : std::vector<std::pair<std::string, std::string>>{
+           {"--fps 60", "fps=60"}, {"--up y", "up=y"}, {"--mass 90", "mass=90"}}) {
+    const Call call = mimicx("convert " + planned + " " + path("other.npz") + " --force " + option);
+    EXPECT_EQ(call.status, 0) << call.text;
+    EXPECT_TRUE(says(call, "without its forces") && says(call, said)) << call.text;
+    const Call audit = mimicx("audit " + planned + " " + option);
+    EXPECT_TRUE(audit.status == 1 && says(audit, "forces were made with the motion as it is")) << audit.text;
+    for (const char* name : {"ground_wrenches", "velocities", "joint_torques", "body_weight"})
+      EXPECT_FALSE(read_npz(path("other.npz")).has(name)) << option << ' ' << name;
+  }
+}
+
 TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndPrintsDecisions) {
   motion::write_clip(path("a.npz"), foreign_clip(60.0));
   const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");

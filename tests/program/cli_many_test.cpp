@@ -40,6 +40,22 @@ TEST_F(CliMany, OutputFolderInsideTheInputsIsSkipped) {
   EXPECT_EQ(mimicx(fit).status, 0) << "its own outputs are replaced, not read";
 }
 
+// A run into the folder of its inputs could not go on: a run's folder has no inputs.
+TEST_F(CliMany, OutputFolderOfTheInputsIsWrongUsage) {
+  const Call call = mimicx("plan " + path("in") + " --out " + path("in/"));
+  EXPECT_EQ(call.status, 2) << call.text;
+  EXPECT_TRUE(says(call, "--out: expected a folder for the results alone")) << call.text;
+  EXPECT_FALSE(std::filesystem::exists(path("in/manifest.json")));
+}
+
+TEST_F(CliMany, CertificatesKeepTheFolderTreeOfTheRun) {
+  ASSERT_EQ(mimicx("plan " + path("in/CMU") + " --no-fit --substeps --out " + path("run")).status, 0);
+  const Call call = mimicx("certify " + path("run/motions") + " --out " + path("certificates"));
+  EXPECT_EQ(call.status, 0) << call.text;
+  for (const char* name : {"01/a", "02/a"})
+    EXPECT_TRUE(std::filesystem::exists(path("certificates/" + std::string(name) + ".cert"))) << name;
+}
+
 TEST_F(CliMany, KilledRunContinuesToTheSameBytes) {
   const std::string command = "plan " + path("in") + " --threads 1 --out ";
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);

@@ -49,7 +49,7 @@ TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
       {a + " --at 5" + png, 2, "render: 5.00 s is not in the motion, which ends at 0.63 s"},
       {a + " --at 0.1,0.2 --kind still" + png, 2, "--at: a still shows one moment, found 2"},
       {a + " --kind animation --at 0.1" + png, 2, "--at: an animation shows all moments"},
-      {a + " --from 0.5 --to 0.2" + png, 2, "0.50 s is not in the motion"},
+      {a + " --from 0.5 --to 0.2" + png, 2, "render: it begins at 0.50 s, after its end at 0.20 s"},
       {a + " --labels x,y" + png, 2, "--labels: expected one for each of the 1 motions, found 2"},
       {a + " --arrows" + png, 1, "a.npz: expected a motion with forces, found none: mimicx plan writes"},
       {path("none.npz") + png, 1, "none.npz"},

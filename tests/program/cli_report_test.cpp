@@ -40,6 +40,16 @@ TEST_F(CliReport, NamesClipsWithoutTruthAndShowsTheOthers) {
   EXPECT_EQ(page.find("\"who\":\"truth\",\"frames\"", first + 1), std::string::npos);
 }
 
+TEST_F(CliReport, NamesClipsWhoseMotionIsMissing) {
+  std::filesystem::rename(path("run/motions/a.npz"), path("a.npz"));
+  const Call call = mimicx("report " + path("run"));
+  std::filesystem::rename(path("a.npz"), path("run/motions/a.npz"));
+  EXPECT_EQ(call.status, 1);
+  EXPECT_TRUE(says(call, "a: its page is empty: expected " + path("run/motions/a.npz") + ", found no file"))
+      << call.text;
+  EXPECT_EQ(mimicx("report " + path("run")).status, 0);
+}
+
 TEST_F(CliReport, RejectsAFolderWithoutARun) {
   for (const char* folder : {"in", "nowhere"}) {
     const Call call = mimicx("report " + path(folder));

@@ -80,6 +80,23 @@ TEST(Charts, ForcesOfTheFeetHaveTheRangeThatExplainsTheMotion) {
   FAIL() << "no chart of forces";
 }
 
+TEST(Charts, NeedsOfTheInputAreTheirForces) {
+  const MeasuredMotion motion = standing_reference(5);
+  audit::PoseNeeds needs;
+  needs.frames.resize(2);
+  needs.frames[1].force = {3.0, 0.0, 4.0};
+  ChartSources sources;
+  sources.motions = {{Who::kInput, &motion}};
+  sources.needs_of_input = &needs;
+  int found = 0;
+  for (const ReportChart& chart : charts_of(sources)) {
+    if (chart.words.words != "unexplained force") continue;
+    EXPECT_EQ(chart.lines.at(0).values, (std::vector<double>{0.0, 5.0}));
+    ++found;
+  }
+  EXPECT_EQ(found, 1);
+}
+
 TEST(Charts, AuditValuesAreAtTheirFrames) {
   const MeasuredMotion motion = standing_reference(5);
   audit::Audit audit;

@@ -22,9 +22,12 @@ namespace {
 constexpr int kDraws = 3;                       ///< samples of the solution's error, for the levels
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
-constexpr double kDoubtful = 1.5;         ///< % of the box; of detectors and estimators 0.3 to 0.5
-constexpr double kContradiction = 3.0;    ///< the same: then the keypoints are ignored
-constexpr double kFartherAway = 1.5;      ///< times as far from the camera; estimators err by less
+constexpr double kDoubtful = 1.5;       ///< % of the box; of detectors and estimators 0.3 to 0.5
+constexpr double kContradiction = 3.0;  ///< the same: then the keypoints are ignored
+constexpr double kFartherAway = 1.5;    ///< times as far from the camera; estimators err by less
+constexpr double kOtherPose =
+    100.0;  ///< mm, mean change of the joints about the pelvis; estimators err by half
+constexpr double kSidesWrong = 0.5;       ///< of the frames; detectors exchange sides in a few
 constexpr double kToldSceneShift = 0.02;  ///< m
 constexpr int kUnsettled = 3;             ///< iterations until the motion is on the floor
 constexpr int kFewest = 7;                ///< iterations; those after the unsettled ones find the levels
@@ -234,6 +237,25 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   return state;
 }
 
+/// Keypoints of another motion may be near some pose of the body, and change it from frame to frame.
+void report_other_motion(const motion::Clip& before, const motion::Clip& after, FitReport& report) {
+  const PerFrame<BodyPoses> a = motion::poses_of(before), b = motion::poses_of(after);
+  double change = 0.0;
+  for (int t = 0; t < a.count(); ++t)
+    for (int j = 1; j < kBodies; ++j)
+      change += kMm * (a[t].p_WB[j] - a[t].p_WB[0] - b[t].p_WB[j] + b[t].p_WB[0]).norm();
+  change /= a.count() * (kBodies - 1);
+  if (change > kOtherPose)
+    report.notes.push_back(formatted(
+        "the keypoint fit moves the joints by %.0f mm about the pelvis: are the keypoints of this motion?",
+        change));
+  if (report.swapped_frames > kSidesWrong * a.count())
+    report.notes.push_back(
+        formatted("left and right of the keypoints are exchanged in %d of %d frames, and put right: are they "
+                  "named as the file says?",
+                  report.swapped_frames, a.count()));
+}
+
 /// Keypoints of a picture at half its size put the person twice as far away.
 void report_distance(const motion::Clip& before, const motion::Clip& after, FitReport& report) {
   std::vector<double> depth_before, depth_after;
@@ -267,7 +289,10 @@ motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& re
     const FitState state = iterate(problem, report);
     const motion::Clip fitted = result_of(clip, problem, state);
     report.fitted = true;
-    if (!problem.poses_alone) report_distance(clip, fitted, report);
+    if (!problem.poses_alone) {
+      report_distance(clip, fitted, report);
+      report_other_motion(clip, fitted, report);
+    }
     report.focal_scale = exp(state.g[kLogFocal]);
     report.tilt_deg = state.g[kTilt] / kDegree;
     report_levels(problem, state, report);

@@ -5,7 +5,7 @@
 /// (x, −z, y) here. An .npz: grf_left, grf_right (samples, 3) in N and cop_left, cop_right (samples, 3) in m,
 /// z up; grf_fps; optional valid (samples, 2), mass in kg, joints (frames, 22, 3) with fps.
 ///
-/// What it does not do: nothing is filtered, and times are taken to be those of the motion.
+/// What it does not do: nothing is filtered.
 #pragma once
 
 #include <filesystem>

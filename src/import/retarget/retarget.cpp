@@ -295,6 +295,10 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   if (!config.standard_body) {
     clip.betas = fit_betas(lengths);
     clip.decisions.push_back(settle_mass(config.known, clip.betas));
+    const std::string warning = mass_warning(config.known, clip.betas);
+    if (!warning.empty()) clip.warnings.push_back(warning);
+  } else if (!std::isnan(config.known.mass) || !std::isnan(config.known.height)) {
+    clip.warnings.emplace_back("--mass and --height do not change the standard body (--body standard)");
   }
   const Character character = make_character(clip.betas);
   const BodyLengths made = lengths_of(character.joint_offset);

@@ -75,7 +75,8 @@ FeetSeries simulated_series(const audit::SimulatedFrames& motion) {
 /// Means over the intervals; a centre of pressure by the vertical force of its samples.
 FeetSeries measured_series(const import::MeasuredForces& measured, double fps, int frames) {
   FeetSeries series;
-  const double last = measured.samples.back().time - measured.samples.front().time;
+  const double begin = time_of_first_frame(measured.samples.front().time, fps),
+               last = measured.samples.back().time - begin;
   std::size_t next = 0;
   for (int t = 0; t < frames && t <= fps * last + 1e-6; ++t) {
     Array<Vector3d, 2> force, pressed;
@@ -86,7 +87,7 @@ FeetSeries measured_series(const import::MeasuredForces& measured, double fps, i
     int count = 0;
     for (; next < measured.samples.size(); ++next) {
       const import::ForceSample& sample = measured.samples[next];
-      if (sample.time - measured.samples.front().time > t / fps + 1e-6) break;
+      if (sample.time - begin > t / fps + 1e-6) break;
       if (t == 0) continue;
       ++count;
       for (int foot = 0; foot < 2; ++foot) {

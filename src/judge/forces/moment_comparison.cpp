@@ -11,10 +11,9 @@ namespace mimicx::judge {
 namespace {
 
 /// Mean of a column over an interval, by Simpson's rule on linear interpolation.
-/// @param from, to  s after the first row
+/// @param from, to  in the times of the table, s
 double mean_between(const import::StorageTable& table, std::size_t column, double from, double to) {
   const auto at = [&](double time) {
-    time += table.rows.front()[0];
     const auto next = std::lower_bound(table.rows.begin() + 1, table.rows.end() - 1, time,
                                        [](const auto& row, double t) { return row[0] < t; });
     const auto &a = *(next - 1), &b = *next;
@@ -38,7 +37,8 @@ std::vector<double> compare_inverse_dynamics(const audit::SimulatedFrames& motio
       columns[side][k] = *at;
     }
   const double own_mass = motion.character.total_mass(),
-               last = table.rows.empty() ? 0.0 : table.rows.back()[0] - table.rows.front()[0];
+               begin = table.rows.empty() ? 0.0 : time_of_first_frame(table.rows.front()[0], motion.fps),
+               last = table.rows.empty() ? 0.0 : table.rows.back()[0] - begin;
   if (std::isnan(mass)) mass = own_mass;
   Array<Array<PairedSeries, files::kGaitMoments>, 3> series;  // both legs, left, right
   int count = 0;
@@ -52,7 +52,8 @@ std::vector<double> compare_inverse_dynamics(const audit::SimulatedFrames& motio
       const auto moments = files::gait_moments(poses, motion.forces[now].joint_torque, side == 1);
       for (int k = 0; k < files::kGaitMoments; ++k) {
         const double theirs =
-            mean_between(table, columns[side][k], (t - 1) / motion.fps, t / motion.fps) / mass;
+            mean_between(table, columns[side][k], begin + (t - 1) / motion.fps, begin + t / motion.fps) /
+            mass;
         for (const int group : {0, 1 + side}) series[group][k].add(moments[k] / own_mass, theirs);
       }
     }

@@ -4,7 +4,7 @@
 /// The file has the generalised forces of a gait model, hip_flexion_r_moment, knee_angle_r_moment,
 /// ankle_angle_r_moment and those of `l`, N·m. The motion's are the same as `files::format_sto` writes them,
 /// each over the mass of its body. A motion's moment is a mean over the interval that ends at its frame; the
-/// file's is averaged over the same interval, the file's time beginning at the motion's frame 0.
+/// file's is averaged over the same interval, counted from `time_of_first_frame` (paired_series.h).
 ///
 /// Signs are those of gait2392 and gait10dof18musc: positive flexes the hip, extends the knee, lifts the
 /// toes. Rajagopal's model has its knee the other way round.

@@ -45,4 +45,6 @@ double PairedSeries::correlation() const {
   return sum / static_cast<double>(a.size()) / (sa * sb);
 }
 
+double time_of_first_frame(double first, double fps) { return std::abs(first) * fps < 1.0 ? 0.0 : first; }
+
 }  // namespace mimicx::judge

@@ -21,4 +21,10 @@ struct PairedSeries {
   double correlation() const;  ///< NaN where one of them hardly changes
 };
 
+/// When the motion's frame 0 is, in the times of a file of measured forces or moments, s: at 0 if the file
+/// begins within the motion's first interval, as ours do, whose rows are in the middle of intervals, and
+/// otherwise at the file's first row.
+/// @param first  time of that row, s
+double time_of_first_frame(double first, double fps);
+
 }  // namespace mimicx::judge

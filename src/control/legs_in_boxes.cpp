@@ -1,4 +1,4 @@
-#include "control/box_sides.h"
+#include "control/legs_in_boxes.h"
 
 #include <algorithm>
 

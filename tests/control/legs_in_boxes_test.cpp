@@ -1,5 +1,5 @@
 // Depth of the legs in the sides of boxes, its derivatives, and plans that keep out of them.
-#include "control/box_sides.h"
+#include "control/legs_in_boxes.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ SideDepths depths_of(const System& system, const State<double>& x) {
 }
 double deepest(const System& system, const State<double>& x) { return depths_of(system, x).depth.maxCoeff(); }
 
-TEST(BoxSides, JacobianMatchesDifferences) {
+TEST(LegsInBoxes, JacobianMatchesDifferences) {
   const WalkThroughBoxes s;
   const auto J = depths_of(s.system, s.x).by_tangent;
   constexpr double kStep = 1e-6;
@@ -50,7 +50,7 @@ TEST(BoxSides, JacobianMatchesDifferences) {
   }
 }
 
-TEST(BoxSides, CostMatchesItsDerivativesAndLanes) {
+TEST(LegsInBoxes, CostMatchesItsDerivativesAndLanes) {
   const WalkThroughBoxes s;
   CostWeights weights;
   weights.slip = weights.com_velocity = weights.angular_momentum = 0.0;
@@ -66,14 +66,14 @@ TEST(BoxSides, CostMatchesItsDerivativesAndLanes) {
   EXPECT_NEAR(static_cast<double>(lanes.cost[0]), exact.value, 1e-4 * exact.value);
 }
 
-TEST(BoxSides, SoftPlatesHaveNone) {
+TEST(LegsInBoxes, SoftPlatesHaveNone) {
   EXPECT_GT(deepest(WalkThroughBoxes().system, WalkThroughBoxes().x), 0.05);
   const WalkThroughBoxes soft(2e4);
   EXPECT_EQ(deepest(soft.system, soft.x), 0.0);
 }
 
 // Somebody who marches in place lifts the feet in front of a box, and gets 5 cm into it.
-TEST(BoxSides, PlanKeepsTheLegsOutOfARiser) {
+TEST(LegsInBoxes, PlanKeepsTheLegsOutOfARiser) {
   const motion::Reference reference = synthetic_reference("march", 501, 60);
   const System flat = system_of(reference);
   const Eigen::Vector2d middle = reference.poses[0].p_WB[kPelvis].head<2>(),
