@@ -21,15 +21,18 @@ def call(*arguments, statuses=(0, 1)):
 
 
 def spread(values, digits=None):
-    """Mean ± standard error."""
+    """Mean±standard error."""
     values = [math.inf if v is None else v for v in values]
     if any(map(math.isinf, values)):
         return "never" if all(map(math.isinf, values)) else ", ".join("never" if math.isinf(v) else f"{v:.0f}" for v in values)
-    mean = statistics.mean(values)
+    mean, error = statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
+    if mean == error == 0.0:
+        return "0"
     if digits is None:
         digits = 1 if abs(mean) >= 10 else 2 if abs(mean) >= 0.01 else 4
-    error = f" ± {statistics.stdev(values) / math.sqrt(len(values)):.{digits}f}" if len(values) > 1 else ""
-    return f"{mean:.{digits}f}{error}"
+        if error > 0.0:  # at least one digit of it
+            digits = max(digits, min(4, -math.floor(math.log10(error))))
+    return f"{mean:.{digits}f}" + (f"±{error:.{digits}f}" if len(values) > 1 else "")
 
 
 def markdown(head, rows):

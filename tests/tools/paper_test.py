@@ -31,7 +31,9 @@ table_runs = sys.modules["table_runs"]
 
 class Means(unittest.TestCase):
     def test_spread_is_the_mean_and_its_standard_error(self):
-        self.assertEqual(paper.spread([1.0, 2.0, 3.0]), "2.00 ± 0.58")  # 1 / √3
+        self.assertEqual(paper.spread([1.0, 2.0, 3.0]), "2.00±0.58")  # 1 / √3
+        self.assertEqual(paper.spread([0.030, 0.031, 0.032]), "0.0310±0.0006")
+        self.assertEqual(paper.spread([0.0, 0.0]), "0")
         self.assertEqual(paper.spread([12.34]), "12.3")
         self.assertEqual(paper.spread([float("inf"), None]), "never")
         self.assertEqual(paper.spread([5.0, None]), "5, never")
