@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/number_text.h"
@@ -24,20 +25,21 @@ void share_scene(motion::Clip& a, motion::Clip& b) {
   if (b.scene.flat()) b.scene = a.scene;
 }
 
-/// @throws DataError
-void require_truth(const Pair& pair) {
+/// A motion and its truth on their scenes. @throws DataError
+std::pair<motion::Clip, motion::Clip> read_clips(const Pair& pair, const import::ReadConfig& read) {
+  motion::Clip clip = import::read_motion(pair.motion, read);
   if (pair.truth.empty())
     throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
+  motion::Clip known = import::read_motion(pair.truth, read);
+  share_scene(clip, known);
+  return {std::move(clip), std::move(known)};
 }
 
 EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const import::ReadConfig& read) {
   EvaluatedMotion result;
   result.name = name;
   try {
-    motion::Clip clip = import::read_motion(files.motion, read);
-    require_truth(files);
-    motion::Clip known = import::read_motion(files.truth, read);
-    share_scene(clip, known);
+    const auto [clip, known] = read_clips(files, read);
     const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
                                 truth = samples_at(known, motion::kMetricRate);
     result.frames = evaluated.frames();
@@ -96,9 +98,7 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
 }
 
 PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read) {
-  require_truth(pair);
-  motion::Clip clip = import::read_motion(pair.motion, read), known = import::read_motion(pair.truth, read);
-  share_scene(clip, known);
+  const auto [clip, known] = read_clips(pair, read);
   return {samples_of(clip), samples_of(known)};
 }
 
