@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int worst = ACCEPTED, files = 0; /* the worst of their statuses */
+static int worst = ACCEPTED, files = 0; /* the worst status of the files, and how many there were */
 
 /* Reads a file behind `used` bytes of a block, which grows, and returns its size: -1 if it cannot be read. */
 static long append_file(unsigned char **block, long used, const char *path) {

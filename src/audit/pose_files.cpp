@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/number_text.h"
 #include "core/parallel.h"
@@ -65,10 +66,9 @@ int weakest_joint(const PoseNeed& need) {
 
 }  // namespace
 
-std::pair<PoseNeeds, double> needs_on_floor(const motion::Clip& clip, const PoseNeedsConfig& config) {
+PoseNeeds needs_on_floor(const motion::Clip& clip) {
   const Character character = motion::character_of(clip);
-  const auto [poses, shift] = on_floor(character, clip);
-  return {needs_of_poses(character, poses, clip.fps, config, clip.scene), shift};
+  return needs_of_poses(character, on_floor(character, clip).first, clip.fps, {}, clip.scene);
 }
 
 PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config) {

@@ -9,7 +9,6 @@
 
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "audit/pose_verdict.h"
@@ -34,9 +33,8 @@ struct PoseFile {
   Slip slip;        ///< with the best floor forces; without speeds
 };
 
-/// The needs of a motion, moved to the floor as above, and its upward shift, m.
-/// @throws std::invalid_argument as `needs_of_poses`
-std::pair<PoseNeeds, double> needs_on_floor(const motion::Clip& clip, const PoseNeedsConfig& config = {});
+/// The needs of a motion, moved to the floor as above. @throws std::invalid_argument as `needs_of_poses`
+PoseNeeds needs_on_floor(const motion::Clip& clip);
 
 /// @return with a failure if the file cannot be judged
 PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config);

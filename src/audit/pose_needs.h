@@ -38,8 +38,8 @@ struct PoseNeed {
   double floor = 0.0;                  ///< upward force of the floor, N
   int points = 0;                      ///< contact points that may push
   double lowest = 0.0;                 ///< height of the lowest contact point over the ground, m
-  double in_box = 0.0;       ///< of the deepest contact point in a side of a box (`Scene::way_out`), m
-  PerBody<double> torque{};  ///< of each joint in parts of its bound; [0] is 0
+  double in_box = 0.0;                 ///< depth of the deepest one in a side of a box (`Scene::way_out`), m
+  PerBody<double> torque{};            ///< of each joint in parts of its bound; [0] is 0
 };
 
 struct PoseNeeds {

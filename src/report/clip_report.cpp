@@ -142,18 +142,12 @@ Audits audits_of(const ClipFiles& files, double fps) {
   Audits audits;
   if (files.input)
     if (const motion::Clip clip = motion::resampled(*files.input, fps); clip.frames() > 2)
-      audits.input = audit::needs_on_floor(clip).first;
+      audits.input = audit::needs_on_floor(clip);
   if (files.cleaned.body_model == "mimicx" && files.members.has("joint_torques") &&
       files.cleaned.frames() > 1)
     audits.cleaned = audit::audit_frames(audit::simulated_frames(files.cleaned, files.members),
                                          physics::SimulationConfig{});
   return audits;
-}
-
-double mean_force(const audit::PoseNeeds& needs) {
-  double sum = 0.0;
-  for (const audit::PoseNeed& need : needs.frames) sum += need.force.norm();
-  return sum / needs.frames.count();
 }
 
 /// A bar is full where the external force is half the weight, or the moment half the weight times a metre.
@@ -258,7 +252,8 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   compare_with_truth(files, metrics, made.row);
   const Audits audits = audits_of(files, entry.fps);
   for (std::size_t k = 0; k < metrics.size(); ++k)
-    if (metrics[k].key == kRootForce && audits.input) made.row.values[k][0] = mean_force(*audits.input);
+    if (metrics[k].key == kRootForce && audits.input)
+      made.row.values[k][0] = value_of(audit::verdict_on(*audits.input).values, "force_mean_N");
   clip.scene = files.cleaned.scene;
   add_ground(files, clip);
   add_torques(files, clip);

@@ -119,7 +119,6 @@ TEST(PoseNeeds, MotionInTheFloorIsSunk) {
   EXPECT_NEAR(verdict.longest.depth, 0.2, 0.01);
 }
 
-/// A rigid pose that falls from rest, and one that falls half again as fast.
 TEST(PoseNeeds, LegInTheSideOfABoxIsSunk) {
   motion::Clip clip = exact("stand");
   const Character character = motion::character_of(clip);
@@ -135,6 +134,7 @@ TEST(PoseNeeds, LegInTheSideOfABoxIsSunk) {
   EXPECT_NE(words.find("mm in a box; 100 % of the frames are infeasible"), std::string::npos) << words;
 }
 
+/// A rigid pose that falls from rest, and one that falls half again as fast.
 TEST(PoseNeeds, FlightNeedsNothingAndAFasterFallIsPulled) {
   const motion::Clip clip = motion::standing_clip(1);
   const Character c = motion::character_of(clip);

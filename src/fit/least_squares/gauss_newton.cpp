@@ -22,11 +22,10 @@ namespace {
 constexpr int kDraws = 3;                       ///< samples of the solution's error, for the levels
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
-constexpr double kDoubtful = 1.5;       ///< % of the box; of detectors and estimators 0.3 to 0.5
-constexpr double kContradiction = 3.0;  ///< the same: then the keypoints are ignored
-constexpr double kFartherAway = 1.5;    ///< times as far from the camera; estimators err by less
-constexpr double kOtherPose =
-    100.0;  ///< mm, mean change of the joints about the pelvis; estimators err by half
+constexpr double kDoubtful = 1.5;         ///< % of the box; of detectors and estimators 0.3 to 0.5
+constexpr double kContradiction = 3.0;    ///< the same: then the keypoints are ignored
+constexpr double kFartherAway = 1.5;      ///< times as far from the camera; estimators err by less
+constexpr double kOtherPose = 100.0;      ///< mm about the pelvis, mean of the joints; estimators err by half
 constexpr double kSidesWrong = 0.5;       ///< of the frames; detectors exchange sides in a few
 constexpr double kToldSceneShift = 0.02;  ///< m
 constexpr int kUnsettled = 3;             ///< iterations until the motion is on the floor
@@ -173,8 +172,8 @@ motion::Clip result_of(const motion::Clip& input, const FitProblem& problem, con
 }
 
 /// Largest and mean distance of the joints of two clips, mm.
-void report_change(const motion::Clip& before, const motion::Clip& after, FitReport& report) {
-  const PerFrame<BodyPoses> a = motion::poses_of(before), b = motion::poses_of(after);
+/// @param a, b  before and after the fit
+void report_change(const PerFrame<BodyPoses>& a, const PerFrame<BodyPoses>& b, FitReport& report) {
   for (int t = 0; t < a.count(); ++t)
     for (int j = 0; j < kBodies; ++j) {
       const double mm = kMm * (a[t].p_WB[j] - b[t].p_WB[j]).norm();
@@ -238,8 +237,8 @@ FitState iterate(FitProblem& problem, FitReport& report) {
 }
 
 /// Keypoints of another motion may be near some pose of the body, and change it from frame to frame.
-void report_other_motion(const motion::Clip& before, const motion::Clip& after, FitReport& report) {
-  const PerFrame<BodyPoses> a = motion::poses_of(before), b = motion::poses_of(after);
+/// @param a, b  before and after the fit
+void report_other_motion(const PerFrame<BodyPoses>& a, const PerFrame<BodyPoses>& b, FitReport& report) {
   double change = 0.0;
   for (int t = 0; t < a.count(); ++t)
     for (int j = 1; j < kBodies; ++j)
@@ -288,16 +287,17 @@ motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& re
   try {
     const FitState state = iterate(problem, report);
     const motion::Clip fitted = result_of(clip, problem, state);
+    const PerFrame<BodyPoses> before = motion::poses_of(clip), after = motion::poses_of(fitted);
     report.fitted = true;
     if (!problem.poses_alone) {
       report_distance(clip, fitted, report);
-      report_other_motion(clip, fitted, report);
+      report_other_motion(before, after, report);
     }
     report.focal_scale = exp(state.g[kLogFocal]);
     report.tilt_deg = state.g[kTilt] / kDegree;
     report_levels(problem, state, report);
     report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
-    report_change(clip, fitted, report);
+    report_change(before, after, report);
     report_scene(clip.scene, fitted.scene, report);
     return fitted;
   } catch (const std::domain_error& error) {
