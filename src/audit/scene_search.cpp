@@ -130,7 +130,7 @@ class SupportedMotion {
 
 std::vector<int> foot_points(int foot) {
   std::vector<int> points;
-  for (int i = 0; i < kFootPoints / 2; ++i) points.push_back(foot * kFootPoints / 2 + i);
+  for (int i = 0; i < kPointsPerFoot; ++i) points.push_back(foot * kPointsPerFoot + i);
   return points;
 }
 

@@ -31,7 +31,7 @@ struct ContactPoint {
 };
 
 /// Heel, ball and toe, inner and outer, of the left foot, then of the right: the first contact points.
-inline constexpr int kFootPoints = 12;
+inline constexpr int kFootPoints = 12, kPointsPerFoot = kFootPoints / 2;
 
 /// The place at which a contact point of a flat foot touches a level floor: the point itself or the lowest
 /// point of its sphere, body's frame, m.

@@ -126,10 +126,7 @@ double Cost::momentum_weight(int frame, int k) const {
          (k < 3 ? weights.com_velocity : weights.angular_momentum);
 }
 
-double Cost::slip_weight() const {
-  constexpr int kPointsPerFoot = kFootPoints / 2;
-  return weights.slip / kPointsPerFoot;
-}
+double Cost::slip_weight() const { return weights.slip / kPointsPerFoot; }
 
 Cost make_cost(const System& system, const CostWeights& weights, List<FrameFactors> factors) {
   check(weights);

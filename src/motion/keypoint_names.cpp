@@ -47,7 +47,7 @@ std::string mirrored_name(const std::string& name) {
 }
 
 std::optional<KeypointPlace> place_of_keypoint(const std::string& name) {
-  constexpr int kRight = kFootPoints / 2;  // heel, ball and toe of a foot: inner, outer
+  constexpr int kRight = kPointsPerFoot;  // heel, ball and toe of a foot: inner, outer
   static const std::map<std::string, KeypointPlace> kFeet = {
       {"left_heel", {kLeftAnkle, 0, 1, kHeelHeight}},
       {"left_big_toe", {kLeftFoot, 4, 4, kToeHeight}},

@@ -112,8 +112,8 @@ ReportChart distance_chart(const ChartSources& sources) {
 
 /// Whether a foot's points touch the floor. @param foot  0 left, 1 right
 bool touches(const std::vector<Vector3d>& surface, const Scene& scene, std::size_t foot) {
-  for (std::size_t i = 0; i < kFootPoints / 2; ++i)
-    if (scene.clearance(surface[foot * (kFootPoints / 2) + i]) <= motion::kContactHeight) return true;
+  for (std::size_t i = 0; i < kPointsPerFoot; ++i)
+    if (scene.clearance(surface[foot * kPointsPerFoot + i]) <= motion::kContactHeight) return true;
   return false;
 }
 

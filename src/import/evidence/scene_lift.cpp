@@ -23,8 +23,8 @@ std::vector<Vector3d> low_points(const motion::Clip& clip) {
   for (int t = 0; t < poses.count(); ++t) {
     const motion::SolePositions soles = motion::sole_positions(character, poses[t]);
     for (int foot = 0; foot < 2; ++foot) {
-      const auto begin = soles.begin() + foot * kFootPoints / 2;
-      const Vector3d lowest = *std::min_element(begin, begin + kFootPoints / 2,
+      const auto begin = soles.begin() + foot * kPointsPerFoot;
+      const Vector3d lowest = *std::min_element(begin, begin + kPointsPerFoot,
                                                 [](const auto& a, const auto& b) { return a.z() < b.z(); });
       const int ball = foot == 0 ? kLeftFoot : kRightFoot, before = std::max(t - 1, 0);
       all.push_back(lowest);

@@ -211,8 +211,8 @@ PerFrame<Array<double, 2>> times_to_stance(const PerFrame<Stance>& stance, doubl
   for (int t = 0; t < frames; ++t)
     for (int side = 0; side < 2; ++side) {
       if (t > 0) out[t][side] = out[t - 1][side] + 1.0 / fps;
-      for (int k = 0; k < kFootPoints / 2; ++k)
-        if (stance[t][side * kFootPoints / 2 + k]) out[t][side] = 0.0;
+      for (int k = 0; k < kPointsPerFoot; ++k)
+        if (stance[t][side * kPointsPerFoot + k]) out[t][side] = 0.0;
     }
   for (int t = frames - 2; t >= 0; --t)
     for (int side = 0; side < 2; ++side) out[t][side] = std::min(out[t][side], out[t + 1][side] + 1.0 / fps);

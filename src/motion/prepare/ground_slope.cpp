@@ -14,7 +14,6 @@ constexpr double kStillSole = 0.3;  ///< m/s
 constexpr int kFewestStanding = 10;
 constexpr double kSmallestSlope = 10.0 * kDegree, kLargestSlope = 60.0 * kDegree,
                  kLargestSpread = 30.0 * kDegree;
-constexpr int kPointsPerFoot = kFootPoints / 2;
 
 /// Of the feet that stand, over all frames; directions are sums of unit vectors.
 struct StandingFeet {

@@ -47,7 +47,7 @@ List<Step> steps_of(const Character& character, const PerFrame<BodyPoses>& poses
       if (now[k].z() + next[k].z() < now[low].z() + next[low].z()) low = k;
     Step step;
     step.height = 0.5 * (now[low].z() + next[low].z());
-    step.foot = is_on_feet(poses[t], step.height) ? low / (kFootPoints / 2) : -1;
+    step.foot = is_on_feet(poses[t], step.height) ? low / kPointsPerFoot : -1;
     step.moved = poses[t + 1].p_WB[0] - poses[t].p_WB[0];
     step.walked = step.moved - (next[low] - now[low]);
     step.moved.z() = step.walked.z() = 0.0;
