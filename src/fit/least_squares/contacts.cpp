@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/quantile.h"
+#include "motion/prepare/stance.h"
 
 namespace mimicx::fit {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kHeight = 0.03, kUnsettledHeight = 0.05;  ///< m
 constexpr double kLowShare = 0.1;
 constexpr double kSpeedWindow = 2.0 / 30.0;  ///< s to either side
 constexpr double kLevel = 0.5;               ///< vertical part of a sole's normal
-constexpr int kPointsPerFoot = kFootPoints / 2;
 
 /// Low percentile of the height of a foot's lowest point over the ground, m. @param first  the foot's first
 /// point
@@ -52,6 +52,8 @@ Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, const Sc
       }
     }
   }
+  const PerFrame<bool> carried(feet.size(), true);  // a hop of so few frames is 2 cm high
+  motion::stand_through_jumps(feet, carried, 2 * window + 1, scene, contacts);
   return contacts;
 }
 

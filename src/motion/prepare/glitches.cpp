@@ -8,6 +8,7 @@ namespace mimicx::motion {
 namespace {
 
 constexpr double kMaxJointSpeed = 12.0;      ///< m/s
+constexpr double kMaxPelvisStep = 5.0;       ///< m/s, of the pelvis in a jump
 constexpr double kMaxJointRate = 25.0;       ///< rad/s
 constexpr double kOverNeighbours = 3.0;      ///< a jump is this much faster than the motion around it
 constexpr int kNeighbours = 3;               ///< steps on either side that count as around
@@ -34,7 +35,10 @@ PerFrame<bool> find_glitches(const Clip& clip) {
   const auto poses = poses_of(clip);
   const auto q = joint_rotations(clip);
   PerFrame<double> step;  // t → t + 1
-  for (int t = 0; t + 1 < frames; ++t) step.push_back(implausibility(poses, q, t, t + 1, clip.fps));
+  for (int t = 0; t + 1 < frames; ++t) {
+    const double pelvis = (poses[t + 1].p_WB[kPelvis] - poses[t].p_WB[kPelvis]).norm() * clip.fps;
+    step.push_back(std::max(implausibility(poses, q, t, t + 1, clip.fps), pelvis / kMaxPelvisStep));
+  }
   // A jump at t separates frames t and t + 1. Both ends of the clip count as jumps.
   PerFrame<int> jumps = {-1};
   for (int t = 0; t < step.count(); ++t) {

@@ -15,7 +15,9 @@ constexpr double kSkating = 1.0, kLeaving = 0.3;  ///< m/s: a part that carries 
 constexpr double kFlight = 0.6;    ///< downward acceleration of a body that nothing carries, in g
 constexpr double kParabola = 0.1;  ///< s
 constexpr int kShortestStance = 3;
-constexpr int kPointsPerPart = 2;  ///< inner and outer
+constexpr double kJumpDistance = 0.1, kJumpHeight = 0.05;  ///< m
+constexpr int kJumpFrames = 3;                             ///< two steps make three frames fast
+constexpr int kPointsPerPart = 2;                          ///< inner and outer
 
 /// Height over the ground (m), speed over it and vertical speed (m/s) of a part of a foot: of the middle of
 /// its points.
@@ -56,6 +58,12 @@ PerFrame<bool> standing(const PartMotion& part) {
     t = last + 1;
   }
   return stands;
+}
+
+/// @param first  the foot's first point
+bool foot_stands(const Stance& stance, int first) {
+  return std::any_of(stance.begin() + first, stance.begin() + first + kPointsPerFoot,
+                     [](bool stands) { return stands; });
 }
 
 /// Frames in which the floor carries a share of the weight: by the acceleration of the centre of mass, that
@@ -102,6 +110,7 @@ PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPose
       for (int k = first; k < first + kPointsPerPart; ++k) stance[t][k] = stands[t];
   }
   const PerFrame<bool> is_carried = carried(character, poses, fps);
+  stand_through_jumps(p, is_carried, kJumpFrames, scene, stance);
   for (int t = 0; t < stance.count(); ++t) {
     if (!is_carried[t] || std::find(stance[t].begin(), stance[t].end(), true) != stance[t].end()) continue;
     const auto unlikely = [&](const PartMotion& part) {
@@ -115,6 +124,26 @@ PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPose
     for (int k = 0; k < kPointsPerPart; ++k) stance[t][kPointsPerPart * best + k] = true;
   }
   return stance;
+}
+
+void stand_through_jumps(const PerFrame<SolePositions>& points, const PerFrame<bool>& carried, int longest,
+                         const Scene& scene, PerFrame<Stance>& stance) {
+  const int frames = stance.count();
+  for (int k = 0; k < kFootPoints; ++k) {
+    const int other_foot = k < kPointsPerFoot ? kPointsPerFoot : 0;
+    int before = -1;  // last frame in which the point stands
+    for (int after = 0; after < frames; ++after) {
+      if (!stance[after][k]) continue;
+      const int gap = after - before - 1;
+      bool alone = before >= 0 && gap > 0 && gap <= longest &&
+                   (points[after][k] - points[before][k]).norm() < kJumpDistance;
+      for (int t = before; alone && t <= after; ++t)
+        alone =
+            carried[t] && !foot_stands(stance[t], other_foot) && scene.clearance(points[t][k]) < kJumpHeight;
+      for (int t = before + 1; alone && t < after; ++t) stance[t][k] = true;
+      before = after;
+    }
+  }
 }
 
 }  // namespace mimicx::motion
