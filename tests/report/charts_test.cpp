@@ -152,7 +152,7 @@ TEST(Bars, FeetAreInContactWhereTheFloorPushes) {
 TEST(Bars, ContactFollowsFootHeightWithoutForces) {
   MeasuredMotion motion = standing_reference(4);
   for (auto& points : motion.samples.surface)
-    for (std::size_t i = 0; i < points.size(); ++i) points[i].z() = i < kFootPoints / 2 ? 0.004 : 0.3;
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].z() = i < kPointsPerFoot ? 0.004 : 0.3;
   const std::vector<ReportBars> bars = bars_of(&motion, motion, {}, 0.0);
   ASSERT_EQ(bars.size(), 6u);
   EXPECT_EQ(row(bars, "left foot").spans.size(), 1u);

@@ -42,7 +42,7 @@ TEST(ConvexHull, CollinearPointsGiveTheirEnds) {
 TEST(SupportPolygon, IsTheHullOfTheTouchingSolePoints) {
   std::vector<Vector3d> surface(kFootPoints + 5, Vector3d(9.0, 9.0, 0.0));  // others lie on the floor, too
   for (std::size_t i = 0; i < kFootPoints; ++i) {
-    const bool left = i < kFootPoints / 2;
+    const bool left = i < kPointsPerFoot;
     surface[i] = Vector3d(left ? 0.2 : -0.2, 0.1 * static_cast<double>(i % 3), left ? 0.004 : 0.006);
     surface[i].x() += i % 2 == 0 ? 0.05 : 0.0;
   }

@@ -137,9 +137,9 @@ TEST(Preparation, FoundStepsLieUnderTheFittedFeet) {
     int standing = 0;
     for (const BodyPoses& pose : reference.poses) {
       const motion::SolePositions sole = motion::sole_positions(reference.character, pose);
-      for (const int first : {0, kFootPoints / 2})
+      for (const int first : {0, kPointsPerFoot})
         standing += std::all_of(
-            sole.begin() + first, sole.begin() + first + kFootPoints / 2,
+            sole.begin() + first, sole.begin() + first + kPointsPerFoot,
             [&](const Vector3d& p) { return plate.spans(p) && std::abs(p.z() - plate.height) < 0.01; });
     }
     EXPECT_GT(standing, 5) << "step of " << plate.height;

@@ -21,7 +21,7 @@ PerFrame<FootPositions> climb(const Vector3d& off) {
     for (int i = 0; i < kFootPoints; ++i) {
       const bool stands = t % 10 < 8;
       const int step = t / 10;
-      const double ahead = 0.02 * (i % (kFootPoints / 2)) - 0.05;
+      const double ahead = 0.02 * (i % (kPointsPerFoot)) - 0.05;
       feet[t][i] = off + Vector3d(kTread * (step - 0.5) + ahead + (stands ? 0.0 : 0.15), 0.2, kRise * step);
     }
   return feet;

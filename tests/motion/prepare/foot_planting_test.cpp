@@ -125,12 +125,12 @@ TEST(FootPlanting, FeetLandAndLeaveWhenTheyDid) {
     const auto lowest = [](const Reference& r, int t, int side) {
       const SolePositions p = sole_positions(r.character, r.poses[t]);
       double z = 1e9;
-      for (int k = 0; k < kFootPoints / 2; ++k) z = std::min(z, p[side * kFootPoints / 2 + k].z());
+      for (int k = 0; k < kPointsPerFoot; ++k) z = std::min(z, p[side * kPointsPerFoot + k].z());
       return z;
     };
     const auto stands = [&](int t, int side) {
-      const auto* first = stance[t].begin() + side * kFootPoints / 2;
-      return std::find(first, first + kFootPoints / 2, true) != first + kFootPoints / 2;
+      const auto* first = stance[t].begin() + side * kPointsPerFoot;
+      return std::find(first, first + kPointsPerFoot, true) != first + kPointsPerFoot;
     };
     int changes = 0;
     for (int side : {0, 1})
@@ -188,7 +188,7 @@ TEST(FootPlanting, ADraggedFootSteps) {
   const auto lowest = [&](const BodyPoses& poses) {
     const SolePositions p = sole_positions(reference.character, poses);
     double low = 1.0;
-    for (int k = kFootPoints / 2; k < kFootPoints; ++k) low = std::min(low, p[k].z());
+    for (int k = kPointsPerFoot; k < kFootPoints; ++k) low = std::min(low, p[k].z());
     return low;
   };
   const auto share = [&](int t) { return std::clamp(double(t - first) / (last - first), 0.0, 1.0); };

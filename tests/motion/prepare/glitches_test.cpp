@@ -27,6 +27,19 @@ TEST(Glitches, FlagsAFrameAtAnotherPlace) {
   EXPECT_TRUE(flagged[30]);
 }
 
+// The pelvis is slower there than joints may be, but no body begins to move like that from rest.
+TEST(Glitches, FlagsAnEndThatHangsInTheAir) {
+  const Clip clean = test::standing_clip(60, 1.0);
+  Clip end = clean, start = clean;
+  for (std::size_t t = 57; t < 60; ++t) end.trans[t].z() += 0.235;
+  for (std::size_t t = 0; t < 3; ++t) start.trans[t].z() += 0.235;
+  const auto at_end = find_glitches(end), at_start = find_glitches(start);
+  for (std::size_t t = 0; t < 60; ++t) {
+    EXPECT_EQ(at_end[t], t >= 57) << t;
+    EXPECT_EQ(at_start[t], t < 3) << t;
+  }
+}
+
 TEST(Glitches, DoesNotFlagFastMotionsOrLastingChanges) {
   Clip kick =
       test::standing_clip(60, 1.0);  // the whole leg swings up to 30 rad/s and back in 0.4 s, smoothly

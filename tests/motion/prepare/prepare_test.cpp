@@ -207,7 +207,9 @@ TEST(Prepare, RealClipsComeOutOnTheFloorAndLittleChanged) {
   for (const auto& entry : fs::directory_iterator(motions / "video")) {
     PreparationReport report;
     const Reference r = prepare_reference(read_clip(entry.path()), {}, &report);
-    EXPECT_EQ(report.flagged_frames, 0) << entry.path();
+    // the last three frames of one clip are 23 cm over the others
+    const bool hangs = entry.path().stem() == "video_single_foot_balance_level2_filter_amass";
+    EXPECT_EQ(report.flagged_frames, hangs ? 3 : 0) << entry.path();
     EXPECT_LT(report.change_mean_mm, 40.0) << entry.path();  // floor, levelled and planted feet
     EXPECT_LT(report.hinge_residual_mean_mm, 2.0) << entry.path();
     const Metrics m = evaluate_motion(sample_motion(r.character, r.poses, r.fps), nullptr);

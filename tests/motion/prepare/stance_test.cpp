@@ -85,5 +85,67 @@ TEST(Stance, CarriedBodyStandsEvenIfItsFeetSkate) {
   for (const Stance& stance : motion.stance()) EXPECT_TRUE(any(stance));
 }
 
+/// A person who stands on the left foot, which is put elsewhere in frame 6; frames 5 to 7 do not stand.
+struct StandingOnOneFoot {
+  PerFrame<SolePositions> points;
+  PerFrame<bool> carried = PerFrame<bool>(12, true);
+  PerFrame<Stance> stance = PerFrame<Stance>(12);
+
+  explicit StandingOnOneFoot(const Vector3d& elsewhere) : points(12) {
+    for (int t = 0; t < 12; ++t)
+      for (int k = 0; k < kPointsPerFoot; ++k) {
+        points[t][k] = t < 6 ? Vector3d::Zero() : elsewhere;
+        stance[t][k] = t < 5 || t > 7;
+      }
+  }
+  bool stands_on(int longest = 3) const {
+    PerFrame<Stance> found = stance;
+    stand_through_jumps(points, carried, longest, {}, found);
+    EXPECT_FALSE(
+        std::any_of(found.begin(), found.end(), [](const Stance& at) { return at[kPointsPerFoot]; }));
+    const auto in_gap = [&](int t) { return std::count(found[t].begin(), found[t].end(), true); };
+    EXPECT_EQ(in_gap(5), in_gap(6));
+    EXPECT_EQ(in_gap(6), in_gap(7));
+    return in_gap(6) == kPointsPerFoot;
+  }
+};
+
+TEST(Stance, FootThatAloneCarriesTheBodyStandsThroughAJump) {
+  const Vector3d near(0.06, 0.0, 0.0);
+  EXPECT_TRUE(StandingOnOneFoot(near).stands_on());
+  EXPECT_FALSE(StandingOnOneFoot(near).stands_on(2)) << "it does not stand for longer";
+  EXPECT_FALSE(StandingOnOneFoot(Vector3d(0.12, 0.0, 0.0)).stands_on()) << "a step";
+  StandingOnOneFoot lifted(near), hop(near), steps(near);
+  for (int k = 0; k < kPointsPerFoot; ++k) lifted.points[6][k].z() = 0.06;
+  EXPECT_FALSE(lifted.stands_on());
+  hop.carried[6] = false;
+  EXPECT_FALSE(hop.stands_on());
+  for (int k = kPointsPerFoot + 1; k < kFootPoints; ++k) steps.stance[5][k] = true;
+  PerFrame<Stance> found = steps.stance;
+  stand_through_jumps(steps.points, steps.carried, 3, {}, found);
+  EXPECT_EQ(found, steps.stance) << "the other foot carries the body meanwhile";
+}
+
+// An estimate of a kick puts the whole body, and with it the standing foot, 6 cm aside within a frame.
+TEST(Stance, EstimateThatJumpsOnOneFootIsOneStance) {
+  ExactMotion motion("kick");
+  const PerFrame<Stance> exact = motion.stance();
+  const auto on_one_foot = [&](int t) {
+    const auto left = std::count(exact[t].begin(), exact[t].begin() + kPointsPerFoot, true);
+    const auto right = std::count(exact[t].begin() + kPointsPerFoot, exact[t].end(), true);
+    return (left == 0) != (right == 0);
+  };
+  int first = 0, last = -1;  // of the longest stance on one foot
+  for (int t = 0, begin = 0; t < exact.count(); ++t) {
+    if (!on_one_foot(t)) begin = t + 1;
+    if (t - begin > last - first) first = begin, last = t;
+  }
+  ASSERT_GT(last - first, 8);
+  const int jump = (first + last) / 2;
+  motion.move([&](int t) { return Vector3d(t < jump ? 0.0 : 0.06, 0.0, 0.0); });
+  EXPECT_EQ(motion.stance()[jump], exact[jump]);
+  EXPECT_EQ(motion.stance()[jump - 1], exact[jump - 1]);
+}
+
 }  // namespace
 }  // namespace mimicx::motion
