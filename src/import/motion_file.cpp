@@ -42,6 +42,7 @@ constexpr std::string_view kPathFileType = "PathFileType";
 constexpr std::size_t kHeaderBytes = 1024;  ///< an npy header fits in
 constexpr std::size_t kFirstBytes = 1024;   ///< bytes that identify a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
+constexpr double kMove = 100.0;    ///< m: a motion that begins within half of it from the origin stays
 constexpr const char* kMotions = "a motion (npz, npy, BVH, DeepMimic or .trc)";
 constexpr const char* kConverter =
     "tools/convert_video_results.py converts results of video estimators, and MDM's results.npy";
@@ -230,6 +231,18 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
   }
   clip.decisions.push_back(said);
   if (!clip.summary.empty()) clip.summary.push_back(said);
+}
+
+/// The simulation has single precision, which resolves 2 mm at 20 km. A motion that begins far from the
+/// origin is moved there, by a multiple of 100 m: motions that belong together stay together.
+void settle_place(motion::Clip& clip) {
+  if (!clip.scene.flat()) return;  // its boxes are at places of the file
+  const Vector3d hundreds = (clip.trans.front() / kMove).array().round();
+  const Vector3d shift(-kMove * hundreds.x(), -kMove * hundreds.y(), 0.0);
+  if (shift.isZero(0.0)) return;
+  shift_world(shift, clip);
+  clip.decisions.push_back(formatted("place: moved by (%.0f, %.0f) m to the origin", shift.x(), shift.y()));
+  if (!clip.summary.empty()) clip.summary.push_back(clip.decisions.back());
 }
 
 void require_near(const std::filesystem::path& path, const motion::Clip& clip) {
@@ -438,11 +451,12 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_scene(config, believed, clip);
   settle_floor(config, believed, clip);
+  require_near(path, clip);
+  if (clip.frames() > 0) settle_place(clip);
   if (!believed) remove_t_pose(clip);
   warn_of_jumps(clip);
   if (!believed)
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
-  require_near(path, clip);
   require_in_view(path.string(), clip);
   if (relabelled) clip.summary.clear();
   return clip;

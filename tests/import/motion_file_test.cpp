@@ -254,6 +254,20 @@ TEST(ReadMotion, TheFloorGivenByTheUserBecomesZeroAndStays) {
   EXPECT_NEAR(detect_floor(back), 0.1, 0.01);
 }
 
+TEST(ReadMotion, MovesMotionsFarFromTheOriginThereByHundredsOfMetres) {
+  const motion::Clip near = foreign("walk");
+  const Vector3d away(22000.0, -300.0, 0.0);
+  motion::Clip far = near;
+  shift_world(away, far);
+  const motion::Clip back = written_and_read(far);
+  EXPECT_TRUE(decided(back, "place: moved by (-22000, 300) m to the origin"));
+  EXPECT_FALSE(decided(written_and_read(near), "place"));
+  for (int t = 0; t < near.frames(); ++t) EXPECT_LT((back.trans[t] - near.trans[t]).norm(), 1e-9) << t;
+  ReadConfig on_boxes;  // at places of the file
+  on_boxes.scene = Scene{{{{22000.0, -300.0}, 0.0, {3.0, 3.0}, 0.01}}};
+  EXPECT_FALSE(decided(written_and_read(far, on_boxes), "place"));
+}
+
 TEST(ReadMotion, TrustsOurOwnFiles) {
   motion::Clip clip = foreign("walk");
   rotate_world(rotation_to_z_up('y'), clip);
