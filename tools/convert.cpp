@@ -23,6 +23,16 @@ struct ConvertArguments {
   bool force = false;
 };
 
+/// Options that the format of OUT has no use for.
+/// @throws UsageError naming one
+void require_use(const ConvertArguments& a) {
+  if (import::lower_suffix(a.out) == ".glb") return;
+  const char* unused = a.exchange.arrows                                 ? "--arrows"
+                       : a.exchange.skin != files::ExchangeConfig{}.skin ? "--skin"
+                                                                         : nullptr;
+  if (unused) throw UsageError(std::string(unused) + ": expected OUT to be a .glb, found " + a.out.string());
+}
+
 /// @throws UsageError, or OutputRefused if the file must not be overwritten
 void claim_output(const ConvertArguments& a) {
   record::Outputs outputs({a.in.string()}, a.force);
@@ -37,6 +47,7 @@ void claim_output(const ConvertArguments& a) {
 }
 
 int convert(const ConvertArguments& a) {
+  require_use(a);
   claim_output(a);
   motion::Clip clip = import::read_motion(a.in, a.read);
   files::ExchangeConfig config = a.exchange;
@@ -55,6 +66,8 @@ int convert(const ConvertArguments& a) {
   const bool has_place = suffix == ".glb" || (suffix == ".npz" && a.out.stem().extension() != ".qpos");
   if (!clip.scene.flat() && !has_place)
     std::cerr << a.out.string() << ": such a file has no place for the scene: the motion alone is written\n";
+  if (suffix == ".npy" && (clip.rest_joints || clip.usable_betas() != motion::Clip{}.betas))
+    std::cerr << a.out.string() << ": such a file has no place for the body: readers take the standard one\n";
   make_folder(a.out.parent_path());
   if (files::is_exchanged(a.out))
     files::write_exchange(a.out, clip, a.in.string(), config);

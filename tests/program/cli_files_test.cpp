@@ -63,6 +63,23 @@ TEST_F(Cli, ConvertKeepsTheMotion) {
   EXPECT_EQ(back.trans, clip.trans);
 }
 
+TEST_F(Cli, ConvertSaysWhatTheFormatCannotHold) {
+  motion::Clip clip = motion::standing_clip(20);
+  motion::write_clip(path("standard.npz"), clip);
+  clip.betas[0] = 1.5;
+  motion::write_clip(path("tall.npz"), clip);
+  EXPECT_TRUE(says(mimicx("convert " + path("tall.npz") + " " + path("a.npy")), "no place for the body"));
+  EXPECT_FALSE(says(mimicx("convert " + path("tall.npz") + " " + path("a.bvh")), "no place for the body"));
+  EXPECT_FALSE(
+      says(mimicx("convert " + path("standard.npz") + " " + path("b.npy")), "no place for the body"));
+  for (const char* option : {"--arrows", "--skin shapes"}) {
+    const Call call = mimicx("convert " + path("tall.npz") + " " + path("c.bvh") + " " + option);
+    EXPECT_EQ(call.status, 2);
+    EXPECT_TRUE(says(call, "expected OUT to be a .glb, found")) << call.text;
+    EXPECT_FALSE(std::filesystem::exists(path("c.bvh")));
+  }
+}
+
 TEST_F(Cli, SceneIsReadKeptLearntOnAndRefusedWhereTheFloorMustBeFlat) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   write_file_atomically(path("box.json"),
