@@ -1,4 +1,5 @@
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -32,7 +33,10 @@ void claim_outputs(const AuditArguments& a, const std::vector<std::string>& inpu
   if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
 }
 
-int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs) {
+/// Name of every input by its path, no two alike.
+using Names = std::map<std::string, std::string>;
+
+int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs, const Names& names) {
   std::vector<audit::AuditedFile> files;
   bool all_good = true;
   table_stream(a.json) << audit::audit_table_head();
@@ -40,7 +44,7 @@ int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs
     try {
       files.push_back({path, audit::audit_file(path, false, a.config.read)});
       for (const audit::Audit& audit : files.back().audits) {
-        table_stream(a.json) << audit::format_audit(path, audit);
+        table_stream(a.json) << audit::format_audit(names.at(path), path, audit);
         all_good = all_good && audit.failures.empty();
       }
     } catch (const std::exception& error) {
@@ -52,7 +56,7 @@ int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs
   return all_good ? kAllGood : kSomeFailed;
 }
 
-int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs) {
+int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs, const Names& names) {
   audit::PoseFilesConfig config = a.config;
   config.frames = !a.frames_csv.empty();
   config.needs.reach = a.reach_mm / 1000.0;
@@ -66,7 +70,7 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs)
   audit::audit_pose_files(inputs, config, [&](const audit::PoseFile& file) {
     ++done;
     if (file.failure.empty()) {
-      table_stream(a.json) << audit::format_poses(file);
+      table_stream(a.json) << audit::format_poses(names.at(file.path), file);
     } else {
       std::cerr << file.path << ": left out: " << file.failure << '\n';
       ++failed;
@@ -87,9 +91,12 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs)
 int audit(const AuditArguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv need --poses; use --json for other audits");
-  const std::vector<std::string> inputs = files::paths_of(files::find_motions(a.inputs, {}, &std::cerr));
+  const std::vector<files::MotionInput> found = files::find_motions(a.inputs, {}, &std::cerr);
+  const std::vector<std::string> inputs = files::paths_of(found), unique = files::unique_names(found);
   claim_outputs(a, inputs);
-  return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
+  Names names;
+  for (std::size_t k = 0; k < inputs.size(); ++k) names[inputs[k]] = unique[k];
+  return a.poses ? audit_poses(a, inputs, names) : audit_forces(a, inputs, names);
 }
 
 }  // namespace

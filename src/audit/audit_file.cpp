@@ -106,14 +106,14 @@ std::string audit_table_head() {
                    "beyond", "pull   air", "+ J");
 }
 
-std::string format_audit(const std::string& path, const Audit& audit) {
+std::string format_audit(const std::string& name, const std::string& path, const Audit& audit) {
   const NamedValues values = summary_of(audit);
   const auto value = [&](const char* name) { return value_of(values, name); };
   std::string line =
-      formatted("%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f",
-                std::filesystem::path(path).stem().string().c_str(), evidence_name(audit.evidence).c_str(),
-                value("root_force_mean_N"), value("root_force_max_N"), value("root_force_worst"),
-                value("root_moment_mean_Nm"), value("root_moment_max_Nm"), value("root_moment_worst"));
+      formatted("%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f", name.c_str(),
+                evidence_name(audit.evidence).c_str(), value("root_force_mean_N"), value("root_force_max_N"),
+                value("root_force_worst"), value("root_moment_mean_Nm"), value("root_moment_max_Nm"),
+                value("root_moment_worst"));
   if (audit.evidence != Evidence::kPosesAlone)
     line += formatted(" %8.3g %4.0f %% %10.2g %% %6.2g %4.2g %% %9.0f", value("torque_gap_mean_Nm"),
                       100.0 * value("torque_worst_share"), value("beyond_cone_percent"),

@@ -36,7 +36,8 @@ struct AuditedFile {
 std::string evidence_name(Evidence evidence);
 /// The table's heading, two lines; then a line per audit, and one more per failure.
 std::string audit_table_head();
-std::string format_audit(const std::string& path, const Audit& audit);
+/// @param name  of the motion in the table
+std::string format_audit(const std::string& name, const std::string& path, const Audit& audit);
 /// {"files": [{file, audits: [{evidence, passed, failures, weight_N, rate, summary, rows: {…}}]}]}
 std::string audit_json(const std::vector<AuditedFile>& files);
 

@@ -108,12 +108,11 @@ std::string pose_table_head() {
                    "max", "%");
 }
 
-std::string format_poses(const PoseFile& file) {
+std::string format_poses(std::string name, const PoseFile& file) {
   const auto value = [&](const char* name) { return value_of(file.verdict.values, name); };
   const std::string numbers = formatted(" %6.0f %7.1f %8.1f %9.2f %8.1f %10.1f  ", value("frames"),
                                         value("force_mean_N"), value("force_max_N"), value("moment_mean_Nm"),
                                         value("moment_max_Nm"), 100.0 * value("infeasible_share"));
-  std::string name = std::filesystem::path(file.path).filename().string();
   name.resize(std::max<std::size_t>(name.size(), 28), ' ');
   std::string line = name + numbers + file.verdict.words;
   if (!file.verdict.over_in_words.empty())

@@ -42,9 +42,9 @@ PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config)
 void audit_pose_files(const std::vector<std::string>& paths, const PoseFilesConfig& config,
                       const std::function<void(const PoseFile&)>& judged);
 
-/// The table's heading, and the line of a motion.
+/// The table's heading, and the line of a motion by a name.
 std::string pose_table_head();
-std::string format_poses(const PoseFile& file);
+std::string format_poses(std::string name, const PoseFile& file);
 
 /// The heading of the CSV, and the row of a motion: the verdict's values, its longest stretch and joints in
 /// words. A failed file has no numbers, and the reason in the last column.

@@ -34,6 +34,14 @@ struct CliPoses : Cli {
   }
 };
 
+TEST_F(CliPoses, TellsEqualNamesApart) {
+  std::filesystem::create_directories(path("other"));
+  std::filesystem::copy_file(path("in/good.npz"), path("other/good.npz"));
+  const Call call = mimicx("audit --poses " + path("in/good.npz") + " " + path("other/good.npz"));
+  EXPECT_TRUE(says(call, "\ngood  ")) << call.text;
+  EXPECT_TRUE(says(call, "\ngood-2  ")) << call.text;
+}
+
 TEST_F(CliPoses, WritesARowPerMotionAndFrameAndSkipsFailures) {
   const Call call = mimicx("audit --poses " + path("in") + " --csv " + path("a.csv") + " --frames-csv " +
                            path("f.csv") + " --json " + path("a.json"));
