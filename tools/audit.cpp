@@ -1,5 +1,4 @@
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -33,18 +32,18 @@ void claim_outputs(const AuditArguments& a, const std::vector<std::string>& inpu
   if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
 }
 
-/// Name of every input by its path, no two alike.
-using Names = std::map<std::string, std::string>;
-
-int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs, const Names& names) {
+/// @param names  of the inputs, no two alike
+int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs,
+                 const std::vector<std::string>& names) {
   std::vector<audit::AuditedFile> files;
   bool all_good = true;
   table_stream(a.json) << audit::audit_table_head();
-  for (const std::string& path : inputs) {
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const std::string& path = inputs[k];
     try {
       files.push_back({path, audit::audit_file(path, false, a.config.read)});
       for (const audit::Audit& audit : files.back().audits) {
-        table_stream(a.json) << audit::format_audit(names.at(path), path, audit);
+        table_stream(a.json) << audit::format_audit(names[k], path, audit);
         all_good = all_good && audit.failures.empty();
       }
     } catch (const std::exception& error) {
@@ -56,7 +55,9 @@ int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs
   return all_good ? kAllGood : kSomeFailed;
 }
 
-int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs, const Names& names) {
+/// @param names  of the inputs, no two alike
+int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs,
+                const std::vector<std::string>& names) {
   audit::PoseFilesConfig config = a.config;
   config.frames = !a.frames_csv.empty();
   config.needs.reach = a.reach_mm / 1000.0;
@@ -68,9 +69,9 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs,
   double next = record::steady_seconds() + record::kProgressSeconds;
   table_stream(a.json) << audit::pose_table_head();
   audit::audit_pose_files(inputs, config, [&](const audit::PoseFile& file) {
-    ++done;
+    const std::string& name = names[done++];
     if (file.failure.empty()) {
-      table_stream(a.json) << audit::format_poses(names.at(file.path), file);
+      table_stream(a.json) << audit::format_poses(name, file);
     } else {
       std::cerr << file.path << ": left out: " << file.failure << '\n';
       ++failed;
@@ -92,10 +93,8 @@ int audit(const AuditArguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv need --poses; use --json for other audits");
   const std::vector<files::MotionInput> found = files::find_motions(a.inputs, {}, &std::cerr);
-  const std::vector<std::string> inputs = files::paths_of(found), unique = files::unique_names(found);
+  const std::vector<std::string> inputs = files::paths_of(found), names = files::unique_names(found);
   claim_outputs(a, inputs);
-  Names names;
-  for (std::size_t k = 0; k < inputs.size(); ++k) names[inputs[k]] = unique[k];
   return a.poses ? audit_poses(a, inputs, names) : audit_forces(a, inputs, names);
 }
 
