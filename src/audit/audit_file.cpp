@@ -108,7 +108,7 @@ std::string audit_table_head() {
 
 std::string format_audit(const std::string& name, const std::string& path, const Audit& audit) {
   const NamedValues values = summary_of(audit);
-  const auto value = [&](const char* name) { return value_of(values, name); };
+  const auto value = [&](const char* key) { return value_of(values, key); };
   std::string line =
       formatted("%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f", name.c_str(),
                 evidence_name(audit.evidence).c_str(), value("root_force_mean_N"), value("root_force_max_N"),

@@ -109,7 +109,7 @@ std::string pose_table_head() {
 }
 
 std::string format_poses(std::string name, const PoseFile& file) {
-  const auto value = [&](const char* name) { return value_of(file.verdict.values, name); };
+  const auto value = [&](const char* key) { return value_of(file.verdict.values, key); };
   const std::string numbers = formatted(" %6.0f %7.1f %8.1f %9.2f %8.1f %10.1f  ", value("frames"),
                                         value("force_mean_N"), value("force_max_N"), value("moment_mean_Nm"),
                                         value("moment_max_Nm"), 100.0 * value("infeasible_share"));
