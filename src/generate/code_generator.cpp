@@ -77,11 +77,9 @@ CodeGenerator::CodeGenerator(std::span<const LabelledMotion> motions, int labels
     : labels_(labels),
       config_(config),
       seed_(seed),
-      frames_(nn::make_normaliser<float>(kPoseNumbers)),
+      frames_(nn::normaliser_of(rows_of(motions))),
       lengths_(static_cast<std::size_t>(labels)) {
   require_learnable(motions, labels, kPiece);
-  const nn::Moments moments = nn::moments_of(rows_of(motions));
-  nn::update(frames_, std::span<const nn::Moments>(&moments, 1));
   std::vector<nn::Matrix<float>> pieces;
   Eigen::Index count = 0;
   for (const LabelledMotion& motion : motions) {

@@ -31,13 +31,6 @@ nn::Matrix<float> changes_of(std::span<const LabelledMotion> motions) {
   return changes;
 }
 
-nn::Normaliser<float> normaliser_of(const nn::Matrix<float>& rows) {
-  nn::Normaliser<float> normaliser = nn::make_normaliser<float>(static_cast<int>(rows.cols()));
-  const nn::Moments moments = nn::moments_of(rows);
-  nn::update(normaliser, std::span<const nn::Moments>(&moments, 1));
-  return normaliser;
-}
-
 /// ᾱ of the cosine schedule: 1 at level 0, about 0 at the last.
 std::vector<double> cosine_schedule(int levels) {
   constexpr double kOffset = 0.008;
@@ -58,8 +51,8 @@ DiffusionGenerator::DiffusionGenerator(std::span<const LabelledMotion> motions, 
       config_(config),
       seed_(seed),
       kept_(cosine_schedule(config.levels)),
-      frames_(normaliser_of(rows_of(motions))),
-      changes_(normaliser_of(changes_of(motions))),
+      frames_(nn::normaliser_of(rows_of(motions))),
+      changes_(nn::normaliser_of(changes_of(motions))),
       starts_(static_cast<std::size_t>(labels)) {
   require_learnable(motions, labels, kHistory + 1);
   Random random(seed, {kDiffusionInit});

@@ -57,10 +57,9 @@ double frechet_distance(const nn::Matrix<float>& a, const nn::Matrix<float>& b) 
 
 Recogniser::Recogniser(std::span<const LabelledMotion> truth, int labels, const RecogniserConfig& config,
                        std::uint64_t seed)
-    : summaries_(nn::make_normaliser<float>(3 * kPoseNumbers, 3.0F)), labels_(labels, config.vector_size) {
+    : labels_(labels, config.vector_size) {
   const nn::Matrix<float> summaries = summaries_of(truth);
-  const nn::Moments moments = nn::moments_of(summaries);
-  nn::update(summaries_, std::span<const nn::Moments>(&moments, 1));
+  summaries_ = nn::normaliser_of(summaries, 3.0F);
   nn::Matrix<float> normal;
   nn::normalise(summaries_, summaries, normal);
 

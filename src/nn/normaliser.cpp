@@ -43,6 +43,14 @@ Normaliser<S> make_normaliser(int features, S limit) {
 }
 
 template <class S>
+Normaliser<S> normaliser_of(const Matrix<S>& samples, S limit) {
+  Normaliser<S> normaliser = make_normaliser<S>(static_cast<int>(samples.cols()), limit);
+  const Moments moments = moments_of(samples);
+  update(normaliser, std::span<const Moments>(&moments, 1));
+  return normaliser;
+}
+
+template <class S>
 void refresh(Normaliser<S>& normaliser) {
   const Moments& moments = normaliser.moments;
   if (moments.count == 0) return;
@@ -85,6 +93,7 @@ void denormalise(const Normaliser<S>& normaliser, const Matrix<S>& x, Matrix<S>&
 #define MIMICX_INSTANTIATE(S)                                                  \
   template Moments moments_of(const Matrix<S>&);                               \
   template Normaliser<S> make_normaliser(int, S);                              \
+  template Normaliser<S> normaliser_of(const Matrix<S>&, S);                   \
   template void refresh(Normaliser<S>&);                                       \
   template void update(Normaliser<S>&, std::span<const Moments>);              \
   template void normalise(const Normaliser<S>&, const Matrix<S>&, Matrix<S>&); \

@@ -42,6 +42,10 @@ struct Normaliser {
 template <class S>
 Normaliser<S> make_normaliser(int features, S limit = S(10));
 
+/// A normaliser that makes these samples unit normal.
+template <class S>
+Normaliser<S> normaliser_of(const Matrix<S>& samples, S limit = S(10));
+
 /// Recomputes shift and factor from the moments.
 template <class S>
 void refresh(Normaliser<S>& normaliser);
