@@ -4,12 +4,14 @@
 #include <stdexcept>
 
 #include "core/error.h"
-#include "generate/parameter_training.h"
 #include "nn/elementwise.h"
 #include "nn/gemm.h"
+#include "nn/parameter_training.h"
 
 namespace mimicx::generate {
 namespace {
+
+enum CodeStream : std::uint64_t { kCodeInit = 0x7104, kCodeBatches, kPredictorBatches, kCodeSamples };
 
 constexpr double kFewVectors = 0.03;  ///< running number of vectors under which an entry is given up
 
@@ -114,7 +116,7 @@ void CodeGenerator::train_coder(const nn::Matrix<float>& pieces) {
   encoder_ = nn::make_mlp<float>({numbers, config_.hidden, config_.code_size}, 1.0F, init);
   decoder_ = nn::make_mlp<float>({config_.code_size, config_.hidden, config_.hidden, numbers}, 1.0F, init);
   const std::array networks = {&encoder_, &decoder_};
-  ParameterTraining training(parameters_of(networks));
+  nn::ParameterTraining training(nn::parameters_of(networks));
   const std::size_t of_encoder = 2 * encoder_.weights.size(), of_decoder = 2 * decoder_.weights.size();
   nn::Matrix<float> batch(config_.minibatch, numbers);
   const int window = std::max(1, config_.coder_steps / 100);
@@ -137,7 +139,7 @@ void CodeGenerator::train_coder(const nn::Matrix<float>& pieces) {
     const nn::Var distance = nn::mean(tape, nn::square(tape, nn::sub(tape, vectors, tape.constant(entries))));
     const double value = double{tape.scalar(error)};
     training.descend(nn::add(tape, error, nn::scale(tape, distance, static_cast<float>(config_.commitment))),
-                     falling_step_size(config_.step_size, step, config_.coder_steps));
+                     nn::falling_step_size(config_.step_size, step, config_.coder_steps));
     book_.follow(values, nearest, config_.book_memory, random);
     if (step >= config_.coder_steps - window) coder_loss_ += value / window;
   }
@@ -199,7 +201,7 @@ void CodeGenerator::train_predictor(std::span<const LabelledMotion> motions) {
   Random random(seed_, {kPredictorBatches});
   predictor_ =
       nn::make_mlp<float>({predictor_inputs(), config_.hidden, config_.hidden, config_.codes}, 0.1F, random);
-  ParameterTraining training(nn::parameters(predictor_));
+  nn::ParameterTraining training(nn::parameters(predictor_));
   nn::Matrix<float> input(config_.minibatch, predictor_inputs()), target(config_.minibatch, config_.codes);
   const int window = std::max(1, config_.predictor_steps / 100);
   for (int step = 0; step < config_.predictor_steps; ++step) {
@@ -219,7 +221,7 @@ void CodeGenerator::train_predictor(std::span<const LabelledMotion> motions) {
         nn::forward(tape, predictor_, training.nodes(0, 2 * predictor_.weights.size()), tape.refer(input));
     const double value =
         training.descend(nn::softmax_cross_entropy(tape, logits, tape.refer(target)),
-                         falling_step_size(config_.step_size, step, config_.predictor_steps));
+                         nn::falling_step_size(config_.step_size, step, config_.predictor_steps));
     if (step >= config_.predictor_steps - window) predictor_loss_ += value / window;
   }
 }

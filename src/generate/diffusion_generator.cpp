@@ -7,10 +7,12 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
-#include "generate/parameter_training.h"
+#include "nn/parameter_training.h"
 
 namespace mimicx::generate {
 namespace {
+
+enum DiffusionStream : std::uint64_t { kDiffusionInit = 0x7101, kDiffusionBatches, kDiffusionSamples };
 
 constexpr int kVelocities = 3;  ///< numbers of a frame that are changes themselves
 
@@ -84,7 +86,7 @@ void DiffusionGenerator::train(std::span<const LabelledMotion> motions) {
   for (std::size_t i = 0; i < motions.size(); ++i)
     for (int t = kHistory; t < motions[i].numbers.rows(); ++t) frames.push_back({static_cast<int>(i), t});
   Random random(seed_, {kDiffusionBatches});
-  ParameterTraining training(nn::parameters(network_));
+  nn::ParameterTraining training(nn::parameters(network_));
   nn::Matrix<float> input(config_.minibatch, inputs()), target(config_.minibatch, kPoseNumbers);
   nn::Matrix<float> last(kHistory, kPoseNumbers), next(1, kPoseNumbers);
   const int window = std::max(1, config_.steps / 100);
@@ -118,7 +120,8 @@ void DiffusionGenerator::train(std::span<const LabelledMotion> motions) {
     const nn::Var guess =
         nn::forward(tape, network_, training.nodes(0, 2 * network_.weights.size()), tape.refer(input));
     const nn::Var loss = nn::mean(tape, nn::square(tape, nn::sub(tape, guess, tape.refer(target))));
-    const double value = training.descend(loss, falling_step_size(config_.step_size, step, config_.steps));
+    const double value =
+        training.descend(loss, nn::falling_step_size(config_.step_size, step, config_.steps));
     if (step >= config_.steps - window) last_loss_ += value / window;
   }
 }

@@ -3,10 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "generate/parameter_training.h"
+#include "nn/parameter_training.h"
 
 namespace mimicx::generate {
 namespace {
+
+enum RecogniserStream : std::uint64_t { kRecogniserInit = 0x7108, kRecogniserBatches };
 
 constexpr Eigen::Index kChangeFrames = 10;  ///< a third of a second: slower than trembling
 
@@ -68,7 +70,7 @@ Recogniser::Recogniser(std::span<const LabelledMotion> truth, int labels, const 
   for (Eigen::Index i = 0; i < labels_.size(); ++i) labels_.data()[i] = static_cast<float>(init.normal());
   std::vector<nn::Matrix<float>*> all = nn::parameters(network_);
   all.push_back(&labels_);
-  ParameterTraining training(all);
+  nn::ParameterTraining training(all);
   nn::Matrix<float> input(config.minibatch, normal.cols()), target(config.minibatch, labels);
   for (int step = 0; step < config.steps; ++step) {
     target.setZero();
@@ -88,7 +90,7 @@ Recogniser::Recogniser(std::span<const LabelledMotion> truth, int labels, const 
         nn::sub(tape, nn::scale(tape, nn::matmul(tape, vectors, centres, false, true), 2.0F),
                 nn::broadcast(tape, squares, config.minibatch, labels));
     training.descend(nn::softmax_cross_entropy(tape, logits, tape.refer(target)),
-                     falling_step_size(config.step_size, step, config.steps));
+                     nn::falling_step_size(config.step_size, step, config.steps));
   }
 }
 

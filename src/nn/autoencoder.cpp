@@ -1,22 +1,18 @@
 #include "nn/autoencoder.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
-#include "nn/adam.h"
 #include "nn/checkpoint.h"
-#include "nn/gradient.h"
+#include "nn/parameter_training.h"
 
 namespace mimicx::nn {
 namespace {
 
 enum RandomPurpose : std::uint64_t { kEncoderInit = 0x6101, kDecoderInit, kBatches };
 
-/// A network's parameters and optimiser.
-struct Trained {
-  Mlp<float>& mlp;
-  Adam<float> adam;
-  explicit Trained(Mlp<float>& m) : mlp(m), adam(make_adam<float>(parameters(m))) {}
-};
+constexpr double kNoGradientLimit = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -31,8 +27,10 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
   Matrix<float> clean_samples;
   normalise(coder.inputs, samples, clean_samples);
 
-  Trained encoder(coder.encoder), decoder(coder.decoder);
-  Tape<float> tape;
+  const std::array networks = {&coder.encoder, &coder.decoder};
+  ParameterTraining training(parameters_of(networks), kNoGradientLimit);
+  const std::size_t of_encoder = 2 * coder.encoder.weights.size();
+  const std::size_t of_decoder = 2 * coder.decoder.weights.size();
   Matrix<float> clean(config.minibatch, features), corrupted(config.minibatch, features);
   const int window = std::max(1, config.steps / 100);
   double first = 0.0, last = 0.0;
@@ -43,28 +41,13 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
       for (Eigen::Index k = 0; k < features; ++k)
         corrupted(row, k) = clean(row, k) + static_cast<float>(config.corruption * random.normal());
     }
-    tape.reset();
-    const auto encoder_parameters = parameters_on_tape(tape, coder.encoder);
-    const auto decoder_parameters = parameters_on_tape(tape, coder.decoder);
-    const Var code = forward(tape, coder.encoder, encoder_parameters, tape.refer(corrupted));
-    const Var decoded = forward(tape, coder.decoder, decoder_parameters, code);
+    Tape<float>& tape = training.start();
+    const Var code = forward(tape, coder.encoder, training.nodes(0, of_encoder), tape.refer(corrupted));
+    const Var decoded = forward(tape, coder.decoder, training.nodes(of_encoder, of_decoder), code);
     const Var loss = mean(tape, square(tape, sub(tape, decoded, tape.refer(clean))));
-    const double value = double{tape.scalar(loss)};
+    const double value = training.descend(loss, falling_step_size(config.step_size, step, config.steps));
     if (step < window) first += value / window;
     if (step >= config.steps - window) last += value / window;
-
-    std::vector<Var> all = encoder_parameters;
-    all.insert(all.end(), decoder_parameters.begin(), decoder_parameters.end());
-    const std::vector<Var> gradients = gradient(tape, loss, all);
-    const double done = static_cast<double>(step) / config.steps;
-    const auto step_size = static_cast<float>(config.step_size * (1.0 - 0.9 * done));
-    std::size_t next = 0;
-    for (Trained* trained : {&encoder, &decoder}) {
-      std::vector<Matrix<float>> values;
-      for (std::size_t k = 0; k < trained->adam.first.size(); ++k)
-        values.push_back(tape.value(gradients[next++]));
-      adam_step<float>(trained->adam, parameters(trained->mlp), values, step_size);
-    }
     if (progress && (step + 1) % window == 0) progress(step + 1);
   }
   if (stats != nullptr) *stats = {first, last};
