@@ -6,18 +6,21 @@
 
 #include "core/build.h"
 #include "core/npz/npz.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "pipeline/options/features.h"
 #include "pipeline/options/option_set.h"
 #include "pipeline/options_folder.h"
 #include "record/commit.h"
 #include "record/folder_lock.h"
+#include "record/table.h"
 #include "record/utf8_names.h"
 #include "teaching/plan_teachers.h"
-#include "teaching/school_rounds.h"
 
 namespace mimicx::teaching {
 namespace {
+
+constexpr double kCheckpointSeconds = 60.0;  ///< least time between two checkpoints, s
 
 /// Plans the motions that have no plan yet.
 record::RunOutcome plan_inputs(const TeachConfig& config, const record::RunContext& context) {
@@ -93,6 +96,77 @@ std::vector<PlannedMotion> members(const pipeline::options::MotionCluster& clust
     found.push_back(
         motions[static_cast<std::size_t>(std::find(names.begin(), names.end(), member) - names.begin())]);
   return found;
+}
+
+/// One policy to be taught.
+struct OptionLessons {
+  std::string name;                    ///< of its files
+  std::vector<PlannedMotion> motions;  ///< whose plans teach it
+  SchoolConfig school;
+  rl::tracking::TrackingConfig task;  ///< with the simulation of all plans
+};
+
+/// A teaching as its checkpoint has it, or a new one; and its log so far.
+struct TeachingState {
+  Pupil pupil;
+  record::Table log{{"round", "lessons", "put_back", "loss"}, {}};
+};
+
+TeachingState resumed(const record::RunFolder& folder, const std::string& name, const SchoolConfig& school) {
+  TeachingState state{untrained_pupil(school)};
+  if (!std::filesystem::exists(folder.checkpoint(name))) return state;
+  state.pupil = load_pupil(read_npz(folder.checkpoint(name)), "");
+  state.log = record::read_csv(folder.log(name));
+  state.log.rows.resize(std::min(state.log.rows.size(), static_cast<std::size_t>(state.pupil.rounds)));
+  return state;
+}
+
+void write_checkpoint(const record::RunFolder& folder, const std::string& name, const TeachingState& state) {
+  make_folder(folder.log(name).parent_path());
+  make_folder(folder.checkpoint(name).parent_path());
+  write_file_atomically(folder.log(name), record::format_csv(state.log));
+  Npz archive;
+  save(archive, "", state.pupil);
+  write_npz(folder.checkpoint(name), archive);
+}
+
+/// Teaches one policy by all of the plans; continues from the checkpoint in the folder.
+///
+///     DIR/training/NAME.csv     a row per round: lessons, resets per thousand lessons, loss
+///     DIR/checkpoints/NAME.npz  the pupil
+///
+/// @return none if it was interrupted; the checkpoint then has the finished rounds
+std::optional<Pupil> teach_option(const OptionLessons& option, const record::RunFolder& folder, int threads,
+                                  const record::RunContext& context) {
+  const auto& [name, motions, school, task] = option;
+  const int count = static_cast<int>(motions.size());
+  const Teachers teachers = [&](int k) {
+    return read_teacher(option.motions[static_cast<std::size_t>(k)], option.task,
+                        option.school.follow_plan ? Followed::kPlan : Followed::kReference);
+  };
+  control::PlanControl control;
+  control.threads = threads;
+  control.should_stop = context.should_stop;
+  TeachingState state = resumed(folder, name, school);
+  context.progress.start(name + " (" + std::to_string(count) + " motions)", state.pupil.rounds, school.rounds,
+                         "rounds");
+  double written = record::steady_seconds();
+  while (state.pupil.rounds < school.rounds) {
+    const auto round = teach_round(teachers, count, task, school, control, state.pupil);
+    if (round) {
+      state.log.rows.push_back({static_cast<double>(round->round), static_cast<double>(round->lessons),
+                                round->put_back, round->loss});
+      context.progress.update(state.pupil.rounds, formatted("%.2f of 1000 go astray", round->put_back));
+    }
+    const bool stop = !round || (context.should_stop && context.should_stop());
+    const bool last = state.pupil.rounds == school.rounds;
+    if (stop || last || record::steady_seconds() - written > kCheckpointSeconds) {
+      write_checkpoint(folder, name, state);
+      written = record::steady_seconds();
+    }
+    if (stop && !last) return {};
+  }
+  return std::move(state.pupil);
 }
 
 }  // namespace
