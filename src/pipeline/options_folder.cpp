@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "core/file.h"
+#include "record/commit.h"
 #include "record/outputs.h"
 
 namespace mimicx::pipeline {
@@ -35,6 +36,10 @@ std::string first_difference(const record::Json& there, const record::Json& here
     if (!here.contains(name) && name != "earlier_samples")
       return name + " is " + short_text(value) + " there, not set here";
   return {};
+}
+
+void write_options_manifest(const record::RunFolder& folder, const record::Json& manifest) {
+  write_file_atomically(folder.manifest(), manifest.dump(1) + "\n");
 }
 
 }  // namespace
@@ -82,6 +87,22 @@ std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& fold
   for (const record::Json& input : there.at("inputs").elements())
     if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
   return record::RunOutcome::kAllGood;
+}
+
+void begin_options(const record::RunFolder& folder, const record::Json& record) {
+  folder.create();
+  write_options_manifest(folder, {{"run", record}, {"commit", record::commit()}});
+}
+
+void finish_options(const record::RunFolder& folder, const options::OptionSet& set,
+                    const record::Json& record, const record::Json& inputs, const record::Json& trained) {
+  const std::filesystem::path file = folder.root / "options.npz";
+  options::write_options(file, set);
+  write_options_manifest(folder, {{"run", record},
+                                  {"commit", record::commit()},
+                                  {"inputs", inputs},
+                                  {"options", trained},
+                                  {"checksum", record::file_checksum(file)}});
 }
 
 }  // namespace mimicx::pipeline

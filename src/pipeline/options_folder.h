@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/options/option_set.h"
 #include "record/json.h"
 #include "record/progress.h"
 #include "record/run_folder.h"
@@ -32,5 +33,13 @@ bool let_budget_grow(const record::RunFolder& folder, record::Json& record);
 /// run of other settings or inputs
 std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
                                                    const record::Json& record);
+
+/// Makes the folder and writes the manifest of a run that begins.
+void begin_options(const record::RunFolder& folder, const record::Json& record);
+
+/// Writes the options, then the manifest that says that they are complete.
+/// @param inputs, trained  what the manifest says about each input and each option
+void finish_options(const record::RunFolder& folder, const options::OptionSet& set,
+                    const record::Json& record, const record::Json& inputs, const record::Json& trained);
 
 }  // namespace mimicx::pipeline

@@ -11,7 +11,6 @@
 #include "core/setting.h"
 #include "files/inputs.h"
 #include "pipeline/options_folder.h"
-#include "record/commit.h"
 #include "record/folder_lock.h"
 #include "record/json.h"
 #include "record/run_folder.h"
@@ -222,9 +221,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
     context.messages << folder.root.string() << ": these options are trained already\n";
     return *outcome;
   }
-  folder.create();
-  write_file_atomically(folder.manifest(),
-                        record::Json({{"run", record}, {"commit", record::commit()}}).dump(1) + "\n");
+  begin_options(folder, record);
 
   const Motions motions = read_motions(inputs, config, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
@@ -250,15 +247,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
     set.options.push_back(std::move(made.trained));
     trained.push_back(made.record);
   }
-  options::write_options(config.out / "options.npz", set);
-  write_file_atomically(folder.manifest(),
-                        record::Json({{"run", record},
-                                      {"commit", record::commit()},
-                                      {"inputs", motions.record},
-                                      {"options", trained},
-                                      {"checksum", record::file_checksum(config.out / "options.npz")}})
-                                .dump(1) +
-                            "\n");
+  finish_options(folder, set, record, motions.record, trained);
   return motions.all_good ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
 }
 

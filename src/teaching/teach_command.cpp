@@ -9,9 +9,7 @@
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "pipeline/options/features.h"
-#include "pipeline/options/option_set.h"
 #include "pipeline/options_folder.h"
-#include "record/commit.h"
 #include "record/folder_lock.h"
 #include "record/table.h"
 #include "record/utf8_names.h"
@@ -199,9 +197,7 @@ record::RunOutcome teach_options(const TeachConfig& config, const record::RunCon
     context.messages << folder.root.string() << ": these options are taught already\n";
     return outcome;
   }
-  folder.create();
-  write_file_atomically(folder.manifest(),
-                        record::Json({{"run", record}, {"commit", record::commit()}}).dump(1) + "\n");
+  pipeline::begin_options(folder, record);
   const std::vector<std::string> names = names_of(motions);
   const pipeline::options::Clusters clusters = cluster(config, motions, names);
   rl::tracking::TrackingConfig task;
@@ -230,15 +226,7 @@ record::RunOutcome teach_options(const TeachConfig& config, const record::RunCon
                       {"motions", cluster.members.size()},
                       {"lessons", pupil->taken}});
   }
-  pipeline::options::write_options(config.out / "options.npz", set);
-  write_file_atomically(folder.manifest(),
-                        record::Json({{"run", record},
-                                      {"commit", record::commit()},
-                                      {"inputs", record::Json::array()},
-                                      {"options", taught},
-                                      {"checksum", record::file_checksum(config.out / "options.npz")}})
-                                .dump(1) +
-                            "\n");
+  pipeline::finish_options(folder, set, record, record::Json::array(), taught);
   return outcome;
 }
 
