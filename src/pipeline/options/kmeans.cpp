@@ -109,23 +109,6 @@ void move_centres(const Points& points, Partition& p) {
   }
 }
 
-/// Why it ends: no step raises the cost. The nearest centre costs a point least, the mean costs a cluster
-/// least, and the centre of an empty cluster costs nothing wherever it is. A cost that falls belongs to a
-/// partition that has not been there before, and there are finitely many. Rounded means could go round for
-/// ever, so the first round that does not lower the cost is the last.
-/// A partition that no longer changes has no empty cluster: the centre of one would have been moved onto a
-/// point that is nearer to it than to all others.
-Partition lloyd_sorted(const Points& sorted, const Points& centres) {
-  require_clusters(sorted, centres.rows());
-  Partition p{List<int>(sorted.rows(), -1), centres, 0.0};
-  double cost = std::numeric_limits<double>::infinity();
-  while (assign(sorted, p) && p.cost < cost) {
-    cost = p.cost;
-    move_centres(sorted, p);
-  }
-  return p;
-}
-
 /// k-means++: the first centre is any point, each further one a point drawn with a probability proportional
 /// to its squared distance from the nearest centre so far. Arthur and Vassilvitskii 2007, §2.2.
 Points draw_centres(const Points& sorted, Index k, Random& random) {
@@ -151,28 +134,6 @@ Points draw_centres(const Points& sorted, Index k, Random& random) {
   return centres;
 }
 
-/// @param first  place of the first point among all points: keys the random numbers, together with how many
-///               points there are (no two nodes of a tree share both)
-Partition k_means_sorted(const Points& sorted, Index k, std::uint64_t seed, int first) {
-  require_clusters(sorted, k);
-  Partition best;
-  for (int start = 0; start < kStarts; ++start) {
-    Random random(seed, {kPurpose, static_cast<std::uint64_t>(first),
-                         static_cast<std::uint64_t>(sorted.rows()), static_cast<std::uint64_t>(start)});
-    Partition p = lloyd_sorted(sorted, draw_centres(sorted, k, random));
-    if (start == 0 || p.cost < best.cost) best = std::move(p);
-  }
-  return best;
-}
-
-/// A partition of sorted points as one of the points in the order they were given in.
-Partition unsorted(Partition p, const std::vector<int>& order) {
-  List<int> cluster(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) cluster[order[i]] = p.cluster[i];
-  p.cluster = std::move(cluster);
-  return p;
-}
-
 double diameter_of(const Points& points) {
   double largest = 0.0;
   for (Index i = 0; i < points.rows(); ++i)
@@ -192,7 +153,7 @@ int grow(const Points& sorted, std::uint64_t seed, std::vector<int> members, int
   tree.push_back(node);
   if (compare(mine, 0, static_cast<int>(mine.rows()) - 1) == 0) return index;  // all points are equal
 
-  const Partition halves = k_means_sorted(mine, 2, seed, members.front());
+  const Partition halves = k_means(mine, 2, seed, members.front());
   const int calm = halves.centres.row(0).sum() <= halves.centres.row(1).sum() ? 0 : 1;
   std::array<std::vector<int>, 2> parts;
   for (std::size_t i = 0; i < members.size(); ++i)
@@ -221,14 +182,33 @@ int copy_top(const ClusterTree& tree, int from, double radius, int parent, Clust
 
 }  // namespace
 
-Partition lloyd(const Points& points, const Points& centres) {
-  const List<int> order = canonical_order(points);
-  return unsorted(lloyd_sorted(rows(points, order), centres), order);
+/// Why it ends: no step raises the cost. The nearest centre costs a point least, the mean costs a cluster
+/// least, and the centre of an empty cluster costs nothing wherever it is. A cost that falls belongs to a
+/// partition that has not been there before, and there are finitely many. Rounded means could go round for
+/// ever, so the first round that does not lower the cost is the last.
+/// A partition that no longer changes has no empty cluster: the centre of one would have been moved onto a
+/// point that is nearer to it than to all others.
+Partition lloyd(const Points& sorted, const Points& centres) {
+  require_clusters(sorted, centres.rows());
+  Partition p{List<int>(sorted.rows(), -1), centres, 0.0};
+  double cost = std::numeric_limits<double>::infinity();
+  while (assign(sorted, p) && p.cost < cost) {
+    cost = p.cost;
+    move_centres(sorted, p);
+  }
+  return p;
 }
 
-Partition k_means(const Points& points, int k, std::uint64_t seed) {
-  const List<int> order = canonical_order(points);
-  return unsorted(k_means_sorted(rows(points, order), k, seed, 0), order);
+Partition k_means(const Points& sorted, int k, std::uint64_t seed, int first) {
+  require_clusters(sorted, k);
+  Partition best;
+  for (int start = 0; start < kStarts; ++start) {
+    Random random(seed, {kPurpose, static_cast<std::uint64_t>(first),
+                         static_cast<std::uint64_t>(sorted.rows()), static_cast<std::uint64_t>(start)});
+    Partition p = lloyd(sorted, draw_centres(sorted, k, random));
+    if (start == 0 || p.cost < best.cost) best = std::move(p);
+  }
+  return best;
 }
 
 ClusterTree complete_tree(const Points& points, std::uint64_t seed) {

@@ -8,7 +8,7 @@
 /// down to single points, and l_max cuts it: a smaller l_max only splits further, and the l_max for C
 /// clusters follows from the diameters.
 ///
-/// The result does not depend on the order of the points: they are processed in lexicographic order, and
+/// The tree does not depend on the order of the points: they are processed in lexicographic order, and
 /// random numbers are drawn for positions in that order. Equal points always share a cluster.
 ///
 /// What it does not do: it keeps no names and knows no features (clusters.h). All pairs of members are
@@ -36,11 +36,14 @@ struct Partition {
 /// Lloyd's iteration from the given centres until nothing changes or the cost no longer falls. A centre that
 /// loses its last point moves to the point farthest from its own centre, so no cluster of the result is
 /// empty.
+/// @param sorted  points in lexicographic order
 /// @throws std::invalid_argument when there are fewer distinct points than centres
-Partition lloyd(const Points& points, const Points& centres);
+Partition lloyd(const Points& sorted, const Points& centres);
 
 /// Best of 8 starts. @throws std::invalid_argument as `lloyd`
-Partition k_means(const Points& points, int k, std::uint64_t seed);
+/// @param first  place of the first point among all points: keys the random numbers, together with how many
+///               points there are (no two nodes of a tree share both)
+Partition k_means(const Points& sorted, int k, std::uint64_t seed, int first = 0);
 
 struct ClusterNode {
   int parent = -1;                      ///< -1 for the root
