@@ -44,14 +44,10 @@ motion::Passthrough members_for(const motion::Clip& input, double fps, std::size
 void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
                      const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
                      const Members& more) {
-  std::vector<Vector3d> p_root;
-  std::vector<PerBody<Quaterniond>> q;
-  std::vector<motion::ReferenceFrame> states;
+  PerFrame<motion::ReferenceFrame> states;
   VectorRows joints, torques, ranges;
   WrenchRows ground, self;
   for (const auto& pose : rollout.poses) {
-    p_root.push_back(pose.frame.p_root);
-    q.push_back(pose.frame.q);
     joints.push_back(pose.p_WB);
     states.push_back(pose.frame);
   }
@@ -61,9 +57,7 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
     ground.push_back(forces.ground);
     self.push_back(forces.self_contact);
   }
-  motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
-  if (input.rest_joints) motion::put_on_body_of(input, clip);
-  clip.scene = reference.scene;
+  motion::Clip clip = motion::clip_on_body_of(input, reference, states);
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   clip.passthrough = members_for(input, reference.fps, rollout.poses.size());
@@ -87,17 +81,9 @@ void write_input(const std::filesystem::path& path, const motion::Clip& input) {
 
 void write_reference(const std::filesystem::path& path, const motion::Clip& input,
                      const motion::Reference& reference) {
-  std::vector<Vector3d> p_root;
-  std::vector<PerBody<Quaterniond>> q;
   std::vector<PerBody<Vector3d>> joints;
-  for (std::size_t t = 0; t < reference.frames.size(); ++t) {
-    p_root.push_back(reference.frames[t].p_root);
-    q.push_back(reference.frames[t].q);
-    joints.push_back(reference.poses[t].p_WB);
-  }
-  motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
-  if (input.rest_joints) motion::put_on_body_of(input, clip);
-  clip.scene = reference.scene;
+  for (const BodyPoses& pose : reference.poses) joints.push_back(pose.p_WB);
+  motion::Clip clip = motion::clip_on_body_of(input, reference, reference.frames);
   clip.keypoints = reference.keypoints;
   motion::write_clip(path, clip, {{"joints", positions_member(joints)}});
 }

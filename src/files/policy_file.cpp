@@ -13,17 +13,7 @@ constexpr const char* kStatePrefix = "state_";
 }  // namespace
 
 void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored) {
-  PerFrame<Vector3d> p_root;
-  PerFrame<PerBody<Quaterniond>> q;
-  for (const motion::ReferenceFrame& frame : stored.motion.frames) {
-    p_root.push_back(frame.p_root);
-    q.push_back(frame.q);
-  }
-  motion::Clip clip =
-      motion::to_clip(stored.motion.name, stored.motion.fps, stored.motion.character, p_root, q);
-  clip.scene = stored.motion.scene;
-  if (input.rest_joints) motion::put_on_body_of(input, clip);
-  Npz npz = motion::to_npz(clip);
+  Npz npz = motion::to_npz(motion::clip_on_body_of(input, stored.motion, stored.motion.frames));
   add_states(kStatePrefix, stored.states, Precision::kFloat32, npz);
   for (const auto& [name, number] : simulation_numbers(stored.simulation))
     npz.set(name, NpyArray::from_double({1}, &number));

@@ -15,4 +15,17 @@ void differentiate(PerFrame<ReferenceFrame>& frames, double fps) {
   }
 }
 
+Clip clip_on_body_of(const Clip& input, const Reference& reference, const PerFrame<ReferenceFrame>& frames) {
+  PerFrame<Vector3d> p_root;
+  PerFrame<PerBody<Quaterniond>> q;
+  for (const ReferenceFrame& frame : frames) {
+    p_root.push_back(frame.p_root);
+    q.push_back(frame.q);
+  }
+  Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) put_on_body_of(input, clip);
+  clip.scene = reference.scene;
+  return clip;
+}
+
 }  // namespace mimicx::motion

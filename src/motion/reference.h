@@ -37,4 +37,8 @@ struct Reference {
 /// p_root and q must be set. A single frame keeps its velocities.
 void differentiate(PerFrame<ReferenceFrame>& frames, double fps);
 
+/// A clip of the reference's frames, or of those of a body that follows it, without keypoints. It has the
+/// joints of the input's body, where the input tells them.
+Clip clip_on_body_of(const Clip& input, const Reference& reference, const PerFrame<ReferenceFrame>& frames);
+
 }  // namespace mimicx::motion
