@@ -40,21 +40,7 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const IntervalInput<T>
   template MaskOf<T> advance_interval<T>(const Model<RealOf<T>>&, const IntervalInput<T>&, State<T>&, \
                                          Data<T>&, Applied<T>*, const SubstepWatcher<T>&);
 
-#ifdef MIMICX_OTHER_WIDTHS  // tests/physics/other_widths.cpp
-#if MIMICX_LANES != 8
-MIMICX_INSTANTIATE(Pack<8>)
-#endif
-#if MIMICX_LANES != 16
-MIMICX_INSTANTIATE(Pack<16>)
-#endif
-#else
-MIMICX_INSTANTIATE(double)
-MIMICX_INSTANTIATE(Pack<kLanes>)
-#if MIMICX_LANES == 4
-MIMICX_INSTANTIATE(Pack<1>)  // for processors without vector registers
-#endif
-#endif
-
+MIMICX_FOR_ALL_SCALARS(MIMICX_INSTANTIATE)
 #undef MIMICX_INSTANTIATE
 
 }  // namespace mimicx::physics

@@ -199,4 +199,18 @@ using RealOf = typename ScalarTraits<T>::Real;
 template <class T>
 using MaskOf = typename ScalarTraits<T>::Mask;
 
+// Calls MACRO(T) for the scalars that a build uses: for double, and for packs of its width. Processors
+// without vector registers use Pack<1>. tests/physics/other_widths.cpp has the other widths.
+#if defined(MIMICX_OTHER_WIDTHS) && MIMICX_LANES == 4
+#define MIMICX_FOR_ALL_SCALARS(MACRO) MACRO(Pack<8>) MACRO(Pack<16>)
+#elif defined(MIMICX_OTHER_WIDTHS) && MIMICX_LANES == 8
+#define MIMICX_FOR_ALL_SCALARS(MACRO) MACRO(Pack<16>)
+#elif defined(MIMICX_OTHER_WIDTHS)
+#define MIMICX_FOR_ALL_SCALARS(MACRO) MACRO(Pack<8>)
+#elif MIMICX_LANES == 4
+#define MIMICX_FOR_ALL_SCALARS(MACRO) MACRO(double) MACRO(Pack<4>) MACRO(Pack<1>)
+#else
+#define MIMICX_FOR_ALL_SCALARS(MACRO) MACRO(double) MACRO(Pack<kLanes>)
+#endif
+
 }  // namespace mimicx::physics

@@ -113,21 +113,7 @@ void clear(Applied<T>& applied) {
   template void clear<T>(Applied<T>&);                                                                       \
   template void update_kinematics<T>(const Model<RealOf<T>>&, const State<T>&, Data<T>&);
 
-#ifdef MIMICX_OTHER_WIDTHS  // tests/physics/other_widths.cpp
-#if MIMICX_LANES != 8
-MIMICX_INSTANTIATE(Pack<8>)
-#endif
-#if MIMICX_LANES != 16
-MIMICX_INSTANTIATE(Pack<16>)
-#endif
-#else
-MIMICX_INSTANTIATE(double)
-MIMICX_INSTANTIATE(Pack<kLanes>)
-#if MIMICX_LANES == 4
-MIMICX_INSTANTIATE(Pack<1>)  // for processors without vector registers
-#endif
-#endif
-
+MIMICX_FOR_ALL_SCALARS(MIMICX_INSTANTIATE)
 #undef MIMICX_INSTANTIATE
 
 }  // namespace mimicx::physics
