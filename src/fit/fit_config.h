@@ -60,11 +60,11 @@ struct FitConfig {
   /// m per frame; if standing feet slide by a share of this, the joints and the pelvis' rotation have this
   /// share of their σ.
   double pose_slip = 0.0028;
-  double pose_prior_frames = 15.0;                      ///< `prior_frames` of a smooth motion
-  double tremor_prior_frames = 5.0;                     ///< of one that trembles: its errors last less
-  double pose_joint_rate = 0.5, pose_joint_bend = 0.2;  ///< `joint_rate`, `joint_bend`
-  double pose_root_rotation_sigma = 2.5;                ///< degrees
-  double pose_slip_sigma = 0.003;                       ///< m per frame
+  double pose_prior_frames = 15.0;        ///< `prior_frames` of a smooth motion
+  double tremor_prior_frames = 5.0;       ///< of one that trembles: its errors last less
+  double pose_joint_bend = 0.2;           ///< `joint_bend`
+  double pose_root_rotation_sigma = 2.5;  ///< degrees
+  double pose_slip_sigma = 0.003;         ///< m per frame
   /// Number of frames at 30 fps whose zero-moment points weigh as much as one. 0: balance is not asked for.
   double balance_frames = 8.0;
 };
