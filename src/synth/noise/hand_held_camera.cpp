@@ -66,16 +66,6 @@ Matrix3d drawn_intrinsics(Random& random) {
   throw std::invalid_argument("place_camera: the motion does not fit into any picture");
 }
 
-/// Three independent copies of size·S_τ.
-PerFrame<Vector3d> unsteady(Random& random, int frames, double size, double tau, double fps) {
-  PerFrame<Vector3d> out(frames, Vector3d::Zero());
-  for (int axis = 0; axis < 3; ++axis) {
-    const PerFrame<double> error = smooth_error(random, frames, size, tau * fps);
-    for (int t = 0; t < frames; ++t) out[t][axis] = error[t];
-  }
-  return out;
-}
-
 /// Three independent smooth walks that begin at 0.
 PerFrame<Vector3d> drifting(Random& random, int frames, double size, double fps) {
   PerFrame<Vector3d> out(frames, Vector3d::Zero());
@@ -153,10 +143,10 @@ CameraPath carry_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed, do
   CameraPath camera;
   camera.intrinsics = drawn_intrinsics(random);
   const PerFrame<Vector3d> aim = followed(truth, fps);
-  const PerFrame<Vector3d> walk = unsteady(hands, frames, kWalk, kWalkTau, fps),
-                           sway = unsteady(hands, frames, kSway, kSwayTau, fps),
-                           wander = unsteady(hands, frames, kWander, kWanderTau, fps),
-                           tremor = unsteady(hands, frames, kTremor, kTremorTau, fps);
+  const PerFrame<Vector3d> walk = smooth_errors(hands, frames, kWalk, kWalkTau * fps),
+                           sway = smooth_errors(hands, frames, kSway, kSwayTau * fps),
+                           wander = smooth_errors(hands, frames, kWander, kWanderTau * fps),
+                           tremor = smooth_errors(hands, frames, kTremor, kTremorTau * fps);
   const Vector3d centre = 0.5 * (aim.front() + aim.back());
   for (; distance < kFarthest; distance += kDistanceStep) {
     const Vector3d place(centre.x() + distance * cos(around), centre.y() + distance * sin(around), height);

@@ -29,16 +29,6 @@ double constant_error(Random& random) {
   return student_t(random, kStaticFreedom) / std::sqrt(kVariance);
 }
 
-/// One error per axis and frame: size·J or size·S.
-PerFrame<Vector3d> errors_over_time(Random& random, int count, double size, double frames) {
-  PerFrame<Vector3d> errors(count, Vector3d::Zero());
-  for (int axis = 0; axis < 3; ++axis) {
-    const PerFrame<double> error = smooth_error(random, count, size, frames);
-    for (int t = 0; t < count; ++t) errors[t][axis] = error[t];
-  }
-  return errors;
-}
-
 /// A slow oscillation of unit mean square, per axis of its own frequency and phase.
 PerFrame<Vector3d> oscillation(Random& random, int count, double size, double fps) {
   PerFrame<Vector3d> out(count, Vector3d::Zero());
@@ -58,8 +48,8 @@ void disturb_joint(const NoisePreset& p, std::uint64_t seed, double fps, int bod
       quick(seed, {kJointJitterStream, key});
   const double weight = kDegree * joint_error_weight(body);
   const Vector3d constant = p.joint_static * drawn_vector([&] { return constant_error(still); });
-  const PerFrame<Vector3d> slowly = errors_over_time(slow, frames, p.joint_slow, kJointTau * fps),
-                           quickly = errors_over_time(quick, frames, p.joint_jitter, p.jitter_frames);
+  const PerFrame<Vector3d> slowly = smooth_errors(slow, frames, p.joint_slow, kJointTau * fps),
+                           quickly = smooth_errors(quick, frames, p.joint_jitter, p.jitter_frames);
   for (int t = 0; t < frames; ++t) {
     Quaterniond& joint = motion.q[t][body];
     if (p.joint_shrink != 0.0) joint = exp_map((1.0 - p.joint_shrink) * log_map(joint));

@@ -49,6 +49,15 @@ PerFrame<double> smooth_error(Random& random, int count, double size, double fra
   return error;
 }
 
+PerFrame<Vector3d> smooth_errors(Random& random, int count, double size, double frames) {
+  PerFrame<Vector3d> errors(count, Vector3d::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const PerFrame<double> error = smooth_error(random, count, size, frames);
+    for (int t = 0; t < count; ++t) errors[t][axis] = error[t];
+  }
+  return errors;
+}
+
 double student_t(Random& random, int freedom) {
   const double normal = random.normal();
   double squares = 0.0;

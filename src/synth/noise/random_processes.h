@@ -58,6 +58,9 @@ PerFrame<double> smooth_noise(Random& random, int count, double frames);
 /// size·J_s or size·S_τ; draws nothing where `size` is 0. @param random  advanced
 PerFrame<double> smooth_error(Random& random, int count, double size, double frames);
 
+/// Three independent ones, for the axes of a vector. @param random  advanced
+PerFrame<Vector3d> smooth_errors(Random& random, int count, double size, double frames);
+
 /// Student's t with a whole number of degrees of freedom. @param random  advanced
 double student_t(Random& random, int freedom);
 
