@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "core/number_text.h"
-#include "synth/noise/noise_amplitudes.h"
+#include "synth/noise/random_processes.h"
 
 namespace mimicx::synth {
 namespace {

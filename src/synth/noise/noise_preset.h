@@ -3,6 +3,7 @@
 /// What it does not do: no errors of the camera but `camera_turn` (hand_held_camera.h).
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "character/character.h"
@@ -48,6 +49,18 @@ struct NoisePreset {
   // The camera that is given to the program.
   double camera_turn = 0;  ///< pan and roll errors, in σ of the tilt error
 };
+
+/// An amplitude by its name, for `--noise NAME=VALUE`.
+struct Amplitude {
+  const char* name;
+  const char* unit;
+  double NoisePreset::*value;
+  double least = 0.0;  ///< smallest valid value
+  double most = 1e6;   ///< largest valid value
+};
+
+/// All of them, in the order of the fields of `NoisePreset`.
+std::span<const Amplitude> amplitudes();
 
 /// "independent"; "gvhmr" and "vibe": the levels that the paper's Table 1 states for these estimators, as
 /// docs/method.md, "Noise model" measures them; "none": exact motion and body. All share one detector.

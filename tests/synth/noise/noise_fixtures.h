@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "synth/noise/estimator_noise.h"
-#include "synth/noise/noise_amplitudes.h"
 #include "synth/synthesize.h"
 
 namespace mimicx::test {
