@@ -102,10 +102,9 @@ struct Data {
 /// Torques and forces that acted during an interval, for export and audit: sums over the physics steps.
 template <class T>
 struct Applied {
-  PerBody<Vec3<T>> joint_torque;       ///< child's frame, N·m (PD and range; without armature)
-  PerBody<Vec3<T>> range_torque;       ///< the part from the anatomical range
-  PerBody<Wrench<T>> ground, self;     ///< about the body's joint centre, world axes
-  Array<T, kMaxContacts> point_force;  ///< normal force per Model::contacts entry, N
+  PerBody<Vec3<T>> joint_torque;    ///< child's frame, N·m (PD and range; without armature)
+  PerBody<Vec3<T>> range_torque;    ///< the part from the anatomical range
+  PerBody<Wrench<T>> ground, self;  ///< about the body's joint centre, world axes
   int steps = 0;
 };
 

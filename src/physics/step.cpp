@@ -82,7 +82,6 @@ void record_applied(const Model<RealOf<T>>& model, const Data<T>& d, Applied<T>&
     Wrench<T>& wrench = applied.ground[model.contacts[c.index].body];
     wrench.f += c.applied;
     wrench.n += cross(c.arm, c.applied);
-    applied.point_force[c.index] += c.applied.z;
   }
   for (int i = 0; i < kBodies; ++i) {
     applied.self[i].f += d.self_wrench[i].f;
@@ -98,7 +97,6 @@ void clear(Applied<T>& applied) {
   applied.range_torque.fill(zero3<T>());
   applied.ground.fill(zero);
   applied.self.fill(zero);
-  applied.point_force.fill(T(0.0));
   applied.steps = 0;
 }
 

@@ -126,11 +126,8 @@ std::vector<std::string> what_next(const record::SequenceEntry& entry, const rec
   std::vector<std::string> lines = {"rejected motion: " + (folder.root / entry.output).string() +
                                     "; beside its reference in " + folder.report().string()};
   if (!entry.parts.empty()) lines.push_back(parts_in_words(entry));
-  double infeasible = 0.0;
-  for (const auto& [name, value] : entry.feasibility)
-    if (name == "infeasible_share") infeasible = value;
   if (const std::string ended = ended_by(entry); !ended.empty()) lines.push_back(ended);
-  if (infeasible > 0.0)
+  if (value_of(entry.feasibility, "infeasible_share") > 0.0)
     lines.push_back("the reference is not feasible for any body: mimicx audit --poses '" +
                     folder.reference(entry.name).string() +
                     "' --frames-csv frames.csv lists the frames; remove or correct them");

@@ -116,6 +116,7 @@ RestReport rest(RestPose pose, double rate, int passes) {
   for (int k = 0; k < steps; ++k) {
     s.advance();
     Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
+    std::array<double, kMaxContacts> point_force{};
     for (int n = 0; n < s.data.ground_count; ++n) {
       const GroundContact<double>& contact = s.data.ground[n];
       const ContactPoint& point = s.model.contacts[contact.index];
@@ -123,6 +124,7 @@ RestReport rest(RestPose pose, double rate, int passes) {
       const Vector3d f = lane_of(contact.applied, 0);
       const Vector3d at = lane_of(s.data.p_WB[body], 0) + lane_of(contact.arm, 0);
       force += f;
+      point_force[contact.index] = f.z();
       moment += f.z() * at;
       report.share[body] += f.z() / weight / steps;
       if (is_heel(point)) report.heel_share += f.z() / weight / steps;
@@ -133,8 +135,8 @@ RestReport rest(RestPose pose, double rate, int passes) {
       report.creep = std::max(report.creep, lane_of(contact.velocity, 0).head<2>().norm());
     }
     for (int n = 0; n < s.model.contacts.count(); ++n) {
-      least[n] = std::min(least[n], s.applied.point_force[n]);
-      most[n] = std::max(most[n], s.applied.point_force[n]);
+      least[n] = std::min(least[n], point_force[n]);
+      most[n] = std::max(most[n], point_force[n]);
     }
     Vector3d mass_centre = Vector3d::Zero();
     for (int i = 0; i < kBodies; ++i)

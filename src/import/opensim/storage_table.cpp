@@ -20,10 +20,8 @@ std::optional<std::size_t> StorageTable::find(std::string_view name) const {
 StorageTable parse_storage(std::string_view text, const std::string& path) {
   TextInput input(text, path);
   StorageTable table;
-  for (std::string_view word = input.word(); word != "endheader"; word = input.word()) {
+  for (std::string_view word = input.word(); word != "endheader"; word = input.word())
     if (word.empty()) input.fail("the line 'endheader' of an OpenSim storage file", word);
-    if (equal_but_for_case(word, "inDegrees=yes")) table.in_degrees = true;
-  }
   for (std::string_view word = input.word(); !word.empty(); word = input.word_on_line())
     table.columns.emplace_back(word);
   if (table.columns.empty() || !equal_but_for_case(table.columns.front(), "time"))

@@ -14,7 +14,6 @@ namespace mimicx::import {
 struct StorageTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;  ///< [row][column]; the first column is the time, s
-  bool in_degrees = false;
 
   /// Index of a column; none if no column has that name.
   std::optional<std::size_t> find(std::string_view name) const;
