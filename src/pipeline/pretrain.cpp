@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "core/build.h"
-#include "core/error.h"
 #include "core/npz/npz.h"
 #include "core/setting.h"
 #include "files/inputs.h"
@@ -71,14 +70,8 @@ record::Json settings_json(const PretrainConfig& config) {
 /// Everything that the results depend on; a folder holds one run with one such record.
 record::Json pretraining_record(const PretrainConfig& config, const std::vector<std::string>& files) {
   record::Json inputs = record::Json::array();
-  for (const std::string& file : files) {
-    std::string checksum;
-    try {
-      checksum = record::file_checksum(file);
-    } catch (const DataError&) {  // reported when the motion is read
-    }
-    inputs.push_back({{"input", record::to_utf8(file)}, {"checksum", checksum}});
-  }
+  for (const std::string& file : files)
+    inputs.push_back({{"input", record::to_utf8(file)}, {"checksum", record::checksum_or_none(file)}});
   return {{"version", MIMICX_VERSION},
           {"target", kArithmetic},
           {"seed", config.training.seed},

@@ -58,4 +58,12 @@ std::string checksum(std::string_view bytes) {
 
 std::string file_checksum(const std::filesystem::path& path) { return checksum(read_file(path)); }
 
+std::string checksum_or_none(const std::filesystem::path& path) {
+  try {
+    return file_checksum(path);
+  } catch (const DataError&) {
+    return {};
+  }
+}
+
 }  // namespace mimicx::record

@@ -142,5 +142,7 @@ std::string checksum(std::string_view bytes);
 /// `checksum` of a file's bytes: detects a changed input.
 /// @throws DataError when the file cannot be read.
 std::string file_checksum(const std::filesystem::path& path);
+/// The same; empty when the file cannot be read.
+std::string checksum_or_none(const std::filesystem::path& path);
 
 }  // namespace mimicx::record
