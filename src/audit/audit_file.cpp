@@ -10,8 +10,6 @@ namespace mimicx::audit {
 namespace {
 
 record::Json to_json(const Audit& audit) {
-  record::Json summary = record::Json::object();
-  for (const auto& [name, value] : summary_of(audit)) summary[name] = record::number(value);
   record::Json rows = {{"index", record::Json::array()},          {"root_force_N", record::Json::array()},
                        {"root_moment_Nm", record::Json::array()}, {"torque_gap_Nm", record::Json::array()},
                        {"torque_share", record::Json::array()},   {"power_W", record::Json::array()}};
@@ -30,7 +28,7 @@ record::Json to_json(const Audit& audit) {
           {"failures", audit.failures},
           {"weight_N", audit.weight},
           {"rows_per_second", audit.rate},
-          {"summary", summary},
+          {"summary", record::to_json(summary_of(audit))},
           {"rows", rows}};
 }
 

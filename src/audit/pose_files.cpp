@@ -161,8 +161,7 @@ std::string pose_frames_csv_rows(const PoseFile& file) {
 std::string poses_json(const std::vector<PoseFile>& files) {
   record::Json list = record::Json::array();
   for (const PoseFile& file : files) {
-    record::Json summary = record::Json::object();
-    for (const auto& [name, value] : file.verdict.values) summary[name] = record::number(value);
+    record::Json summary = record::to_json(file.verdict.values);
     summary["slip"] = record::number(file.slip.mean);
     summary["slip_share"] = record::number(file.slip.share);
     list.push_back({{"file", file.path},

@@ -57,8 +57,7 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
 }
 
 record::Json settings_json(const PretrainConfig& config) {
-  record::Json settings = record::Json::object();
-  for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
+  record::Json settings = record::to_json(settings_of(config.training));
   for (const auto& [name, value] : run::settings_of(config.correction)) settings[name] = value != 0.0;
   settings["encoder"] = config.use_encoder;
   settings["encoder_steps"] = config.encoder.steps;

@@ -1,6 +1,7 @@
 #include "record/json.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace mimicx::record {
@@ -205,6 +206,22 @@ void Json::write(std::string& out, int indent, int level) const {
           out += written(value);
       },
       value_);
+}
+
+double number_or_nan(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json to_json(const NamedValues& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = number(value);
+  return json;
+}
+
+NamedValues named_values(const Json& json) {
+  NamedValues values;
+  for (const auto& [name, value] : json.items()) values.emplace_back(name, number_or_nan(value));
+  return values;
 }
 
 std::string document(const Json& members) {

@@ -21,6 +21,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/named_values.h"
+
 namespace mimicx::record {
 
 /// A text that is no JSON, or a value that is missing or of another type.
@@ -133,6 +135,13 @@ class Json {
 
 /// The number; null for NaN and infinities, which JSON does not have.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// The reverse: NaN for null. @throws JsonError
+double number_or_nan(const Json& json);
+
+/// A member per value, a `number` each.
+Json to_json(const NamedValues& values);
+/// The reverse. @throws JsonError
+NamedValues named_values(const Json& json);
 
 /// A document for users: {"made_by": "mimicx", members…}. outputs.h recognises our files by this opening.
 std::string document(const Json& members);

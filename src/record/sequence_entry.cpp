@@ -13,10 +13,6 @@ namespace {
 constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
                                                  "limit-seconds", "followed", "lost"};
 
-double number_from_json(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
 Json checksums_json(const FileChecksums& files) {
   Json json = Json::object();
   for (const auto& [name, checksum] : files) json[to_utf8(name)] = checksum;
@@ -67,18 +63,6 @@ std::string parts_in_words(const SequenceEntry& entry) {
   return text;
 }
 
-Json to_json(const NamedValues& values) {
-  Json json = Json::object();
-  for (const auto& [name, value] : values) json[name] = number(value);
-  return json;
-}
-
-NamedValues named_values(const Json& json) {
-  NamedValues values;
-  for (const auto& [name, value] : json.items()) values.emplace_back(name, number_from_json(value));
-  return values;
-}
-
 Json to_json(const SequenceEntry& e) {
   return {{"name", to_utf8(e.name)},
           {"input", to_utf8(e.input)},
@@ -127,8 +111,8 @@ SequenceEntry entry_of(const Json& json) {
   e.fps = json.at("fps");
   e.seed = json.at("seed");
   e.samples = json.at("samples");
-  e.reward_before = number_from_json(json.at("reward_before"));
-  e.reward_after = number_from_json(json.at("reward_after"));
+  e.reward_before = number_or_nan(json.at("reward_before"));
+  e.reward_after = number_or_nan(json.at("reward_after"));
   e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
   if (json.contains("plan")) e.plan = named_values(json.at("plan"));
   if (json.contains("policy")) e.policy = named_values(json.at("policy"));  // older manifests have none

@@ -80,11 +80,6 @@ struct SequenceEntry {
 /// "followed in part, as motions of their own: frames 0-60 in motions/walk.part1.npz, …"; empty without parts
 std::string parts_in_words(const SequenceEntry& entry);
 
-/// A member per value; null for NaN.
-Json to_json(const NamedValues& values);
-/// @throws JsonError
-NamedValues named_values(const Json& json);
-
 Json to_json(const SequenceEntry& entry);
 /// @throws JsonError
 SequenceEntry entry_of(const Json& json);

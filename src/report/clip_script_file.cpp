@@ -1,7 +1,6 @@
 #include "report/clip_script_file.h"
 
 #include <fstream>
-#include <limits>
 #include <string>
 
 #include "core/file.h"
@@ -48,9 +47,7 @@ void take_values(const std::string& line, ReportRow& row) {
   for (std::size_t k = 0; k < row.values.size(); ++k) {
     const std::vector<Json>& three = values.elements()[k].elements();
     if (three.size() != row.values[k].size()) throw record::JsonError("not three values");
-    for (std::size_t i = 0; i < three.size(); ++i)
-      row.values[k][i] =
-          three[i].is_null() ? std::numeric_limits<double>::quiet_NaN() : three[i].get<double>();
+    for (std::size_t i = 0; i < three.size(); ++i) row.values[k][i] = record::number_or_nan(three[i]);
   }
 }
 

@@ -45,14 +45,13 @@ std::vector<PlannedMotion> motions_of(const TeachConfig& config) {
 }
 
 record::Json teaching_record(const TeachConfig& config, const std::vector<PlannedMotion>& motions) {
-  record::Json settings = record::Json::object(), inputs = record::Json::array();
-  for (const auto& [name, value] : manifest_settings(config)) settings[name] = value;
+  record::Json inputs = record::Json::array();
   for (const PlannedMotion& motion : motions)
     inputs.push_back({{"input", record::to_utf8(motion.input)}, {"checksum", motion.checksum}});
   return {{"version", MIMICX_VERSION},
           {"target", kArithmetic},
           {"seed", config.school.seed},
-          {"settings", settings},
+          {"settings", record::to_json(manifest_settings(config))},
           {"inputs", inputs}};
 }
 
