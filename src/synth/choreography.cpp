@@ -12,7 +12,7 @@ Choreography::Choreography(const PlanRequest& request, const PerSide<FootTarget>
       start_(start),
       feet_(start),
       settle_(settle),
-      stand_(standing_frame(request.character, standing_feet(request.character, start))),
+      stand_(standing_frame(request.character, start)),
       keys_({{0.0, stand_}}) {}
 
 PlanFrame Choreography::crouched(PlanFrame posture, double knee_degrees) const {

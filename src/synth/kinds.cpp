@@ -74,4 +74,8 @@ PlanFrame standing_frame(const Character& character, const FeetTracks& feet) {
   return frame;
 }
 
+PlanFrame standing_frame(const Character& character, const PerSide<FootTarget>& start) {
+  return standing_frame(character, standing_feet(character, start));
+}
+
 }  // namespace mimicx::synth

@@ -61,6 +61,7 @@ const std::vector<SceneKind>& scene_kinds();
 
 /// A frame of standing at ease on `feet` with slightly bent knees; its `com_height` is set.
 PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
+PlanFrame standing_frame(const Character& character, const PerSide<FootTarget>& start);
 
 /// Two feet at a random distance. @param narrow, wide  range of half the distance over the rest pose's
 /// @param least_out, most_out  range of the angle by which the toes turn out, degrees
@@ -88,7 +89,7 @@ PerFrame<PlanFrame> plan_dance(const PlanRequest& request);
 PerFrame<PlanFrame> plan_kick(const PlanRequest& request);
 PerFrame<PlanFrame> plan_punch(const PlanRequest& request);
 PerFrame<PlanFrame> plan_lunge(const PlanRequest& request);
-// kinds/everywhere.cpp
+// kinds/walking_directions.cpp
 PerFrame<PlanFrame> plan_walk_back(const PlanRequest& request);
 PerFrame<PlanFrame> plan_walk_diagonal(const PlanRequest& request);
 PerFrame<PlanFrame> plan_walk_curve(const PlanRequest& request);
@@ -100,7 +101,7 @@ PerFrame<PlanFrame> plan_walk_crouched(const PlanRequest& request);
 PerFrame<PlanFrame> plan_balance(const PlanRequest& request);
 PerFrame<PlanFrame> plan_kick_around(const PlanRequest& request);
 PerFrame<PlanFrame> plan_march(const PlanRequest& request);
-// kinds/low.cpp
+// kinds/crouching.cpp
 PerFrame<PlanFrame> plan_crouch(const PlanRequest& request);
 PerFrame<PlanFrame> plan_sit(const PlanRequest& request);
 PerFrame<PlanFrame> plan_pick_up(const PlanRequest& request);
@@ -110,7 +111,7 @@ PerFrame<PlanFrame> plan_reach(const PlanRequest& request);
 PerFrame<PlanFrame> plan_talk(const PlanRequest& request);
 PerFrame<PlanFrame> plan_stretch(const PlanRequest& request);
 PerFrame<PlanFrame> plan_arm_swings(const PlanRequest& request);
-// kinds/phrases.cpp
+// kinds/random_sequences.cpp
 PerFrame<PlanFrame> plan_martial(const PlanRequest& request);
 PerFrame<PlanFrame> plan_free(const PlanRequest& request);
 

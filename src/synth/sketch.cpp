@@ -88,9 +88,7 @@ Support seat() {
 Support back() { return points_on(kSpine3); }
 
 Sketch::Sketch(const PlanRequest& request, const PerSide<FootTarget>& start, Scene scene)
-    : request_(request),
-      scene_(std::move(scene)),
-      stand_(standing_frame(request.character, standing_feet(request.character, start))) {
+    : request_(request), scene_(std::move(scene)), stand_(standing_frame(request.character, start)) {
   Key first;
   first.time = 0.0;
   first.pose =

@@ -122,7 +122,7 @@ PerFrame<PlanFrame> plan_dance(const PlanRequest& request) {
   Random& random = request.random;
   const auto stance = random_stance(request, 1.0, 1.15, 5.0, 9.0);
   const double beat = random.uniform(0.56, 0.60);
-  PlanFrame stand = standing_frame(request.character, standing_feet(request.character, stance));
+  PlanFrame stand = standing_frame(request.character, stance);
   Dance dance{request, stance, stand, beat, kBegin, Eigen::Vector2d::Zero(), 0.0, {}, {{0.0, stand}}};
   constexpr int kFigures = 5;
   Array<void (*)(Dance&), kFigures> figures = {side_steps, steps_ahead, turning_steps, dips, bow};

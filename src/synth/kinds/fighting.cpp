@@ -124,8 +124,7 @@ PerFrame<PlanFrame> plan_kick(const PlanRequest& request) {
 PerFrame<PlanFrame> plan_punch(const PlanRequest& request) {
   Random& random = request.random;
   const int lead = static_cast<int>(random.below(2));
-  const FeetTracks feet = standing_feet(request.character, fighting_stance(request, lead));
-  const PlanFrame stand = standing_frame(request.character, feet);
+  const PlanFrame stand = standing_frame(request.character, fighting_stance(request, lead));
   PlanFrame guard = guard_posture(stand);
   guard.com_height = height_at(request.character, guard, random.uniform(24.0, 32.0));
   double t = random.uniform(0.25, 0.40);
@@ -167,7 +166,7 @@ PerFrame<PlanFrame> plan_lunge(const PlanRequest& request) {
   // The stance of the lunge fixes how low it goes.
   auto apart = start;
   apart[front].place.x() += length;
-  PlanFrame low = standing_frame(character, standing_feet(character, apart));
+  PlanFrame low = standing_frame(character, apart);
   const double heel = 46.0 * kDegree, knee = random.uniform(64.0, 78.0);
   low.pelvis.x() = 4.0 * kDegree;
   low.trunk.x() = random.uniform(2.0, 8.0) * kDegree;
@@ -175,7 +174,7 @@ PerFrame<PlanFrame> plan_lunge(const PlanRequest& request) {
   PlanFrame rolled = low;
   rolled.foot[rear].heel_rise = heel;
   low.com_height = height_at(character, rolled, knee);
-  const PlanFrame stand = standing_frame(character, standing_feet(character, start));
+  const PlanFrame stand = standing_frame(character, start);
   PlanFrame split = stand;  // just landed, or about to step back
   split.arm = low.arm;
   split.com_height -= 0.09 * leg;

@@ -164,14 +164,14 @@ PerFrame<PlanFrame> plan_jump(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 1.0, 1.2, 4.0, 10.0);
   const JumpTiming time = jump_timing(random, 0.0);
-  const PlanFrame stand = standing_frame(request.character, standing_feet(request.character, start));
+  const PlanFrame stand = standing_frame(request.character, start);
   return plan_of(request, start, stand, {make_jump(request.character, stand, time, random)});
 }
 
 PerFrame<PlanFrame> plan_jumps(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 1.0, 1.2, 4.0, 10.0);
-  const PlanFrame stand = standing_frame(request.character, standing_feet(request.character, start));
+  const PlanFrame stand = standing_frame(request.character, start);
   std::vector<Jump> jumps;
   for (double from = -0.3;;) {
     JumpTiming time = jump_timing(random, from);

@@ -32,9 +32,7 @@ struct Wander {
 
 PerFrame<PlanFrame> plan_stand(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = random_stance(request, 0.95, 1.2, 4.0, 14.0);
-  const FeetTracks feet = standing_feet(request.character, start);
-  const PlanFrame stand = standing_frame(request.character, feet);
+  const PlanFrame stand = standing_frame(request.character, random_stance(request, 0.95, 1.2, 4.0, 14.0));
   const MinJerkTrack part = fade(request.seconds(), 0.8);
   const Wander ahead(random), aside(random), turn(random), lean(random), look(random), arms(random);
   const double shift = random.uniform(0.02, 0.035), sway = random.uniform(0.006, 0.012);
@@ -56,9 +54,7 @@ PerFrame<PlanFrame> plan_stand(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_squat(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = random_stance(request, 1.35, 1.6, 14.0, 20.0);
-  const FeetTracks feet = standing_feet(request.character, start);
-  const PlanFrame stand = standing_frame(request.character, feet);
+  const PlanFrame stand = standing_frame(request.character, random_stance(request, 1.35, 1.6, 14.0, 20.0));
   PlanFrame low = stand;  // hips back, arms to the front as a counterweight, looking ahead
   low.pelvis.x() = random.uniform(20.0, 26.0) * kDegree;
   low.trunk.x() = random.uniform(12.0, 18.0) * kDegree;
@@ -89,9 +85,7 @@ PerFrame<PlanFrame> plan_squat(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_wave(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = random_stance(request, 0.95, 1.15, 4.0, 12.0);
-  const FeetTracks feet = standing_feet(request.character, start);
-  const PlanFrame stand = standing_frame(request.character, feet);
+  const PlanFrame stand = standing_frame(request.character, random_stance(request, 0.95, 1.15, 4.0, 12.0));
   const int side = static_cast<int>(random.below(2));
   const double mirror = side == 0 ? 1.0 : -1.0;
   PlanFrame raised = stand;  // upper arm out, forearm up
@@ -124,9 +118,7 @@ PerFrame<PlanFrame> plan_wave(const PlanRequest& request) {
 
 PerFrame<PlanFrame> plan_bow(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = random_stance(request, 0.95, 1.15, 4.0, 12.0);
-  const FeetTracks feet = standing_feet(request.character, start);
-  const PlanFrame stand = standing_frame(request.character, feet);
+  const PlanFrame stand = standing_frame(request.character, random_stance(request, 0.95, 1.15, 4.0, 12.0));
   const double begin = random.uniform(0.3, 0.5);
   std::vector<PostureKey> keys = {{0.0, stand}};
   for (double t = begin;;) {

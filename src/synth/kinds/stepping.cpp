@@ -49,7 +49,7 @@ SceneMotion walk_over(const PlanRequest& request, double start_height, const std
       (request.seconds() - kStepsBegin - kStepsRest - waits) / static_cast<double>(falls.size());
   const double swing = 0.78 * period;
   PerSide<FootTarget> start = feet_apart(half_width, toes_out);
-  const PlanFrame stand = standing_frame(character, standing_feet(character, start));
+  const PlanFrame stand = standing_frame(character, start);
   for (FootTarget& foot : start) foot.lift = start_height;
 
   std::vector<FootSwing> swings;
