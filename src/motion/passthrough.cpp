@@ -11,18 +11,6 @@ namespace {
 using Type = NpyArray::Type;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A time of the result between two rows of the input.
-struct RowsBetween {
-  std::size_t row, next;
-  double share;  ///< of the next row
-  std::size_t nearest() const { return share < 0.5 ? row : next; }
-};
-
-RowsBetween locate_rows(double at, std::size_t rows) {
-  const std::size_t row = std::min(static_cast<std::size_t>(at), rows - 1);
-  return {row, std::min(row + 1, rows - 1), std::clamp(at - static_cast<double>(row), 0.0, 1.0)};
-}
-
 /// The rows with the indices of `source`, unchanged.
 NpyArray picked(const NpyArray& array, std::size_t count,
                 const std::function<std::size_t(std::size_t)>& source) {
@@ -88,6 +76,11 @@ Passthrough frames_from(const Passthrough& members, std::size_t frames, std::siz
 }
 
 }  // namespace
+
+RowsBetween locate_rows(double at, std::size_t rows) {
+  const std::size_t row = std::min(static_cast<std::size_t>(at), rows - 1);
+  return {row, std::min(row + 1, rows - 1), std::clamp(at - static_cast<double>(row), 0.0, 1.0)};
+}
 
 bool is_per_frame(const std::string& name, const NpyArray& array, std::size_t frames) {
   const bool rows = frames > 0 && !array.shape.empty() && array.shape[0] == frames;

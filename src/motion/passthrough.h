@@ -15,6 +15,15 @@ namespace mimicx::motion {
 
 using Passthrough = std::vector<std::pair<std::string, NpyArray>>;
 
+/// A time between two rows, or frames, of the input.
+struct RowsBetween {
+  std::size_t row, next;
+  double share;  ///< of the next row
+  std::size_t nearest() const { return share < 0.5 ? row : next; }
+};
+/// @param at  in rows
+RowsBetween locate_rows(double at, std::size_t rows);
+
 /// Whether a member has one row per frame.
 bool is_per_frame(const std::string& name, const NpyArray& array, std::size_t frames);
 

@@ -12,17 +12,6 @@ constexpr std::size_t kMostFrames = 300000;  ///< that a lower rate is made to: 
 
 constexpr double kEnd = 0.05;  ///< frames
 
-/// A time of the output between two frames of the input.
-struct Between {
-  int frame, next;
-  double share;  ///< of the next frame
-};
-
-Between locate(double frame, int frames) {
-  const int before = std::min(static_cast<int>(frame), frames - 1);
-  return {before, std::min(before + 1, frames - 1), std::clamp(frame - before, 0.0, 1.0)};
-}
-
 /// A keypoint between two frames. Where both detected it, it is interpolated and keeps the lower confidence;
 /// else it is that of the nearer frame.
 Vector3d interpolate_keypoint(const Vector3d& a, const Vector3d& b, double share) {
@@ -62,7 +51,7 @@ Clip resampled(const Clip& clip, double fps) {
     if (clip.keypoints->extrinsics.size() > 1) out.keypoints->extrinsics.resize(count);
   }
   for (int k = 0; k < out.frames(); ++k) {
-    const auto [t, n, share] = locate(k * ratio, frames);
+    const auto [t, n, share] = locate_rows(k * ratio, clip.rotations.size());
     for (int j = 0; j < kBodies; ++j) out.rotations[k][j] = log_map(slerp(q[t][j], share, q[n][j]));
     out.trans[k] = (1.0 - share) * clip.trans[t] + share * clip.trans[n];
     if (!out.keypoints) continue;
