@@ -26,18 +26,6 @@ double largest_angle(const PerBody<Vector3d>& frame) {
   return most;
 }
 
-/// Steps of the fastest joint, m/s; entry t is from frame t to frame t + 1.
-PerFrame<double> joint_speeds(const PerFrame<BodyPoses>& poses, double fps) {
-  PerFrame<double> speeds;
-  for (int t = 1; t < poses.count(); ++t) {
-    double most = 0.0;
-    for (int j = 0; j < kBodies; ++j)
-      most = std::max(most, fps * (poses[t].p_WB[j] - poses[t - 1].p_WB[j]).norm());
-    speeds.push_back(most);
-  }
-  return speeds;
-}
-
 /// The clip without its first frames.
 void leave_out_first(int count, motion::Clip& clip) {
   const auto cut = [&](auto& rows) { rows.erase(rows.begin(), rows.begin() + count); };
@@ -124,7 +112,7 @@ void require_in_view(const std::string& path, const motion::Clip& clip) {
   const auto& cameras = clip.keypoints->extrinsics;
   int behind = 0;
   for (int t = 0; t < clip.frames(); ++t) {
-    const Eigen::Matrix4d& camera = cameras[cameras.size() > 1 ? t : 0];
+    const Eigen::Matrix4d& camera = motion::camera_at(cameras, t);
     const Vector3d place = clip.trans[t] + pelvis;
     if ((camera * place.homogeneous()).z() <= 0.0) ++behind;
   }

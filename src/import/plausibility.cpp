@@ -39,6 +39,16 @@ double support_speed(const PerFrame<BodyPoses>& poses, double fps) {
 
 double support_speed(const motion::Clip& clip) { return support_speed(motion::poses_of(clip), clip.fps); }
 
+PerFrame<double> joint_speeds(const PerFrame<BodyPoses>& poses, double fps) {
+  PerFrame<double> speeds;
+  for (int t = 1; t < poses.count(); ++t) {
+    double most = 0.0;
+    for (int j = 0; j < kBodies; ++j) most = std::max(most, speed_of(poses, t, j, fps));
+    speeds.push_back(most);
+  }
+  return speeds;
+}
+
 double detect_floor(const motion::Clip& clip) {
   return finite_quantile(motion::lowest_resting_heights(motion::surface_points(motion::character_of(clip)),
                                                         motion::poses_of(clip)),
@@ -47,18 +57,13 @@ double detect_floor(const motion::Clip& clip) {
 
 std::vector<std::string> implausible_speeds(const motion::Clip& clip) {
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  std::vector<double> pelvis, fastest;
-  for (int t = 1; t < poses.count(); ++t) {
-    pelvis.push_back(speed_of(poses, t, kPelvis, clip.fps));
-    double most = 0.0;
-    for (int j = 0; j < kBodies; ++j) most = std::max(most, speed_of(poses, t, j, clip.fps));
-    fastest.push_back(most);
-  }
+  std::vector<double> pelvis;
+  for (int t = 1; t < poses.count(); ++t) pelvis.push_back(speed_of(poses, t, kPelvis, clip.fps));
   std::vector<std::string> said;
   if (const double speed = finite_quantile(pelvis, 0.5); speed > kFastPelvis)
     said.push_back("the pelvis moves at " + short_number(speed) +
                    " m/s in the median: are scale and frame rate right? (--scale, --fps)");
-  if (const double speed = finite_quantile(fastest, 0.99); speed > kSuspectJoint)
+  if (const double speed = finite_quantile(joint_speeds(poses, clip.fps), 0.99); speed > kSuspectJoint)
     said.push_back("a joint reaches " + short_number(speed) +
                    " m/s: are scale and frame rate right? (--scale, --fps)");
   return said;

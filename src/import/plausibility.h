@@ -26,6 +26,9 @@ double support_speed(const motion::Clip& clip);
 /// The same of its poses.
 double support_speed(const PerFrame<BodyPoses>& poses, double fps);
 
+/// Steps of the fastest joint, m/s; entry t is from frame t to frame t + 1.
+PerFrame<double> joint_speeds(const PerFrame<BodyPoses>& poses, double fps);
+
 /// Height of the floor: a low percentile of the heights of the body's lowest point, m.
 double detect_floor(const motion::Clip& clip);
 
