@@ -16,10 +16,6 @@ constexpr double kReach = 3.0;  ///< in its σ
 
 Quaterniond camera_turn(const Eigen::Matrix4d& E) { return Quaterniond(Matrix3d(E.topLeftCorner<3, 3>())); }
 
-Vector3d eye_of(const Eigen::Matrix4d& E) {
-  return -E.topLeftCorner<3, 3>().transpose() * E.topRightCorner<3, 1>();
-}
-
 /// Mean rotation and position around a frame, over equally many frames before and after it, so that a steady
 /// pan does not change.
 Eigen::Matrix4d mean_around(const PerFrame<Eigen::Matrix4d>& path, int t, double sigma) {
@@ -32,7 +28,7 @@ Eigen::Matrix4d mean_around(const PerFrame<Eigen::Matrix4d>& path, int t, double
     const double w = exp(-0.5 * pow((i - t) / sigma, 2));
     const Eigen::Vector4d q = camera_turn(path[i]).coeffs();
     turn += w * (q.dot(middle.coeffs()) < 0.0 ? Eigen::Vector4d(-q) : q);
-    eye += w * eye_of(path[i]);
+    eye += w * motion::eye_of(path[i]);
     sum += w;
   }
   Eigen::Matrix4d E = Eigen::Matrix4d::Identity();
@@ -50,8 +46,8 @@ CameraJitter jitter_of_camera(const PerFrame<Eigen::Matrix4d>& path) {
     for (int i = 0; i < 3; ++i)
       step[i] = log_map(camera_turn(path[t + i + 1]) * camera_turn(path[t + i]).conjugate());
     const Vector3d turn = step[0] - 2.0 * step[1] + step[2];
-    const Vector3d place =
-        eye_of(path[t + 3]) - 3.0 * eye_of(path[t + 2]) + 3.0 * eye_of(path[t + 1]) - eye_of(path[t]);
+    const Vector3d place = motion::eye_of(path[t + 3]) - 3.0 * motion::eye_of(path[t + 2]) +
+                           3.0 * motion::eye_of(path[t + 1]) - motion::eye_of(path[t]);
     for (int i = 0; i < 3; ++i) turns.push_back(std::abs(turn[i])), places.push_back(std::abs(place[i]));
   }
   return {jitter_of(turns), jitter_of(places)};

@@ -109,10 +109,6 @@ Vector3d project(const Camera& camera, const Vector3d& p_W) {
   return {pixel.x() / pixel.z(), pixel.y() / pixel.z(), p_C.z()};
 }
 
-Vector3d eye_of(const Eigen::Matrix4d& extrinsics) {
-  return -extrinsics.block<3, 3>(0, 0).transpose() * extrinsics.block<3, 1>(0, 3);
-}
-
 Camera place_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed) {
   Random random(seed, {kCameraStream});
   Vector3d low = truth.front().p_WB[kPelvis], high = low;

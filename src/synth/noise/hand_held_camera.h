@@ -20,9 +20,6 @@ struct Camera {
 /// u, v in pixels and depth in metres.
 Vector3d project(const Camera& camera, const Vector3d& p_W);
 
-/// Position of a camera in the world, m.
-Vector3d eye_of(const Eigen::Matrix4d& extrinsics);
-
 /// The camera of a clip: one extrinsics matrix for all frames, or one per frame.
 struct CameraPath {
   Matrix3d intrinsics = Matrix3d::Identity();

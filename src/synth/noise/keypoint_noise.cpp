@@ -140,7 +140,7 @@ motion::Keypoints detect_keypoints(const SeenMotion& truth, const CameraPath& ca
     ErrorNoise noise = drawn_noise(preset, seed, k, frames, truth.fps);
     for (int t = 0; t < frames; ++t) {
       const Camera view = camera.at(t);
-      const Vector3d eye = eye_of(view.extrinsics);
+      const Vector3d eye = motion::eye_of(view.extrinsics);
       const Vector3d& p_WB = seen[t].p_WB[points[k].body];
       const Quaterniond& q_WB = seen[t].q_WB[points[k].body];
       const Vector3d joint = p_WB + q_WB * points[k].p_B;

@@ -96,7 +96,7 @@ void disturb_travel(const NoisePreset& p, std::uint64_t seed, double fps, Estima
 void disturb_place(const NoisePreset& p, std::uint64_t seed, double fps, const CameraPath& camera,
                    EstimatedMotion& motion) {
   Random distance(seed, {kDistanceStream}), height(seed, {kFloorStream}), wobbling(seed, {kWobbleStream});
-  const Vector3d ray = motion.p_root.front() - eye_of(camera.at(0).extrinsics);
+  const Vector3d ray = motion.p_root.front() - motion::eye_of(camera.at(0).extrinsics);
   const Vector3d offset = p.depth * distance.normal() * ray + p.height * height.normal() * Vector3d::UnitZ();
   const PerFrame<Vector3d> wobble = oscillation(wobbling, motion.p_root.count(), p.wobble, fps);
   for (int t = 0; t < motion.p_root.count(); ++t) motion.p_root[t] += offset + wobble[t];

@@ -118,7 +118,8 @@ TEST(CarriedCamera, KeepsThePersonInThePicture) {
         }
       }
       for (int t = 1; t < poses.count(); ++t) {  // hands, not teleports
-        EXPECT_LT((eye_of(camera.extrinsics[t]) - eye_of(camera.extrinsics[t - 1])).norm(), 0.05);
+        EXPECT_LT((motion::eye_of(camera.extrinsics[t]) - motion::eye_of(camera.extrinsics[t - 1])).norm(),
+                  0.05);
         EXPECT_NE(camera.extrinsics[t], camera.extrinsics[t - 1]);
       }
     }
@@ -138,7 +139,7 @@ TEST(CarriedCamera, GivenPathDriftsWithTheRootOfTime) {
     const Matrix3d off =
         told.extrinsics[last].block<3, 3>(0, 0) * camera.extrinsics[last].block<3, 3>(0, 0).transpose();
     const Vector3d turned = log_map(Quaterniond(off)) / test::kDegree,
-                   moved = eye_of(told.extrinsics[last]) - eye_of(camera.extrinsics[last]);
+                   moved = motion::eye_of(told.extrinsics[last]) - motion::eye_of(camera.extrinsics[last]);
     for (int axis = 0; axis < 3; ++axis) turn.add(turned[axis]), place.add(moved[axis]);
   }
   // Variance of the integral of a process with autocorrelation exp(−Δ²/4τ²) / (2√π τ).
