@@ -9,7 +9,6 @@
 #include "judge/reference_needs.h"
 #include "judge/worsening.h"
 #include "motion/clip_file.h"
-#include "run/file_integrity.h"
 
 namespace mimicx::run {
 namespace {
@@ -56,6 +55,20 @@ void write_parts(const record::RunFolder& folder, const motion::Clip& input, con
     write_simulated_motion(with_parents(folder.part(entry.name, static_cast<int>(entry.parts.size()))), body,
                            part.reference, part.rollout, simulation);
   }
+}
+
+/// Checksums of a sequence's present files, by their names in the folder. Not of checkpoints, which a
+/// finished motion no longer needs, nor of physics steps and gains, which a later command may add.
+record::FileChecksums checksums_of(const record::RunFolder& folder, const record::SequenceEntry& entry) {
+  record::FileChecksums files;
+  for (const std::filesystem::path& file : folder.files_of(entry.name)) {
+    if (file == folder.checkpoint(entry.name) || file == folder.substeps(entry.name) ||
+        file == folder.gains(entry.name))
+      continue;
+    if (const std::string checksum = record::checksum_or_none(file); !checksum.empty())
+      files.emplace_back(file.lexically_relative(folder.root).generic_string(), checksum);
+  }
+  return files;
 }
 
 }  // namespace
@@ -125,6 +138,13 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
   if (made.taught) files::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
   entry.output = output;
   entry.files = checksums_of(folder, entry);
+}
+
+std::vector<std::string> damaged_files(const record::RunFolder& folder, const record::SequenceEntry& entry) {
+  std::vector<std::string> damaged;
+  for (const auto& [name, checksum] : entry.files)
+    if (record::checksum_or_none(folder.root / name) != checksum) damaged.push_back(name);
+  return damaged;
 }
 
 }  // namespace mimicx::run

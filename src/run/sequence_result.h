@@ -1,4 +1,4 @@
-/// The result of one motion of a run: judged, recorded in its entry, and written.
+/// The result of one motion of a run: judged, recorded in its entry, written, and found damaged later.
 #pragma once
 
 #include "audit/pose_needs.h"
@@ -29,5 +29,8 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
 /// @param parts  of a motion that is no success
 void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
                     const List<FollowedPart>& parts, record::SequenceEntry& entry);
+
+/// Names in the folder of the entry's files that are missing, truncated or changed.
+std::vector<std::string> damaged_files(const record::RunFolder& folder, const record::SequenceEntry& entry);
 
 }  // namespace mimicx::run

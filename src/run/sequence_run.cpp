@@ -22,7 +22,6 @@
 #include "report/clip_report.h"
 #include "report/clip_script_file.h"
 #include "report/run_report.h"
-#include "run/file_integrity.h"
 #include "run/preparation.h"
 #include "run/run_messages.h"
 #include "run/run_outputs.h"
