@@ -78,10 +78,10 @@ void add_momentum_and_contact_terms(const System& system, const Cost& cost, int 
   if (!(cost.weights.slip > 0.0)) return;
   Eigen::Matrix<double, 2 * kFootPoints, 1> slip, slip_weight;
   slip_weight.setConstant(cost.slip_weight());
-  const auto slips = sole_slip(system, *d);
+  const auto slips = sole_slip(system, cost.ahead[frame], *d);
   for (int point = 0; point < kFootPoints; ++point)
     slip.segment<2>(2 * point) = to_eigen(slips[point]).head<2>();
-  add(sole_slip_jacobian(system, *d), slip, slip_weight);
+  add(sole_slip_jacobian(system, cost.ahead[frame], *d), slip, slip_weight);
 }
 
 }  // namespace
@@ -148,13 +148,14 @@ Cost make_cost(const System& system, const CostWeights& weights, List<FrameFacto
 Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal) {
   if (goal.size() != system.reference.size())
     raise(std::invalid_argument("goal and reference must have the same number of frames"));
-  Cost out{cost.weights, std::move(goal), {}, {}, cost.factors, cost.elastic, cost.lead};
+  Cost out{cost.weights, std::move(goal), {}, {}, {}, cost.factors, cost.elastic, cost.lead};
   const auto kinematics = std::make_unique<Data<double>>();
   for (const State<double>& x : out.goal) {
     out.p_WB.push_back(poses_of(system, x).p_WB);
     update_kinematics(system.exact_model, x, *kinematics);
     out.momentum.push_back(vector_of(centroidal_momentum(system.exact_model, *kinematics)));
   }
+  out.ahead = standing_ahead(system, out.goal);
   return out;
 }
 
@@ -189,7 +190,7 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
       out.cost += P(cost.weights.box_sides) * depth * depth;
   }
   if (cost.weights.slip > 0.0) {
-    for (const Vec3<P>& slip : sole_slip(system, scratch))
+    for (const Vec3<P>& slip : sole_slip(system, cost.ahead[frame], scratch))
       out.cost += P(cost.slip_weight()) * dot(slip, slip);
   }
   return out;

@@ -1,6 +1,7 @@
 #include "control/sole_slip.h"
 
 #include <algorithm>
+#include <memory>
 #include <type_traits>
 
 #include "physics/contact.h"
@@ -40,14 +41,7 @@ Vector3d by_angle(const Data<double>& d, int body, const Vector3d& arm, const Ve
   return a.cross(relative) + w.cross(a.cross(arm));
 }
 
-/// z + Δ min(0, v_z)
-template <class T>
-T height_ahead(const T& z, const T& rise) {
-  using std::min;
-  return fma(min(rise, T(0.0)), T(kAhead), z);
-}
-
-/// ν of the height ahead
+/// ν of a height, m
 template <class T>
 T nearness(const T& z) {
   using std::max;
@@ -62,43 +56,64 @@ double nearness_slope(double z) {
 
 }  // namespace
 
+List<StandingAhead> standing_ahead(const System& system, const List<State<double>>& goal) {
+  const int last = goal.count() - 1;
+  const auto d = std::make_unique<Data<double>>();
+  List<Array<Vec3<double>, kFootPoints>> points(goal.size());
+  for (int t = 0; t <= last; ++t) {
+    update_kinematics(system.exact_model, goal[t], *d);
+    for (int k = 0; k < kFootPoints; ++k) points[t][k] = motion_of(system.sole[k], *d).p;
+  }
+  const auto stands = [&](int t, int k) {
+    const Vec3<double>& p = points[t][k];
+    const Vec3<double> moves = points[std::min(t + 1, last)][k] - p;
+    const double d2 = (moves.x * moves.x + moves.y * moves.y) / (kNearFloor * kNearFloor);
+    return nearness(p.z - ground_height(system.exact_model, p)) / (1.0 + d2);
+  };
+  List<StandingAhead> ahead(goal.size());
+  for (int t = 0; t <= last; ++t)
+    for (int k = 0; k < kFootPoints; ++k)
+      for (int s = t + 1; s <= std::min(t + kFramesAhead, last); ++s)
+        ahead[t][k] = std::max(ahead[t][k], stands(s, k));
+  return ahead;
+}
+
 template <class T>
-Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const Data<T>& d) {
+Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const StandingAhead& ahead, const Data<T>& d) {
+  using std::max;
   const Model<RealOf<T>>& model = model_of<T>(system);
   Array<Vec3<T>, kFootPoints> slip;
   for (int k = 0; k < kFootPoints; ++k) {
     const auto [p, v] = motion_of(system.sole[k], d);
-    const T near = nearness(height_ahead(p.z - ground_height(model, p), v.z));
+    const T near = max(nearness(T(p.z - ground_height(model, p))), T(ahead[k]));
     slip[k] = {near * v.x, near * v.y, T(0.0)};
   }
   return slip;
 }
 
-SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d) {
+SoleSlipJacobian sole_slip_jacobian(const System& system, const StandingAhead& ahead, const Data<double>& d) {
   SoleSlipJacobian J = SoleSlipJacobian::Zero();
   for (int k = 0; k < kFootPoints; ++k) {
     const PointMotion<double> motion = motion_of(system.sole[k], d);
     const Vector3d p = to_eigen(motion.p), v = to_eigen(motion.v);
-    const double ground = ground_height(system.exact_model, motion.p);
-    const double z = height_ahead(p.z() - ground, v.z()), near = nearness(z);
-    const Eigen::Vector2d by_height = nearness_slope(z) * v.head<2>();
-    const Eigen::Vector2d by_rise =
-        v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();
+    const double z = p.z() - ground_height(system.exact_model, motion.p), own = nearness(z);
+    const double near = std::max(own, ahead[k]);
+    const Eigen::Vector2d by_height =
+        own > ahead[k] ? Eigen::Vector2d(nearness_slope(z) * v.head<2>()) : Eigen::Vector2d::Zero();
     auto rows = J.middleRows<2>(2 * k);
     rows.col(2) = by_height;
     rows.block<2, 2>(0, kRootVelocity).diagonal().setConstant(near);
-    rows.col(kRootVelocity + 2) = by_rise;
     for_each_rotation(d, system.sole[k].body, [&](int body, const Vector3d& a, int coordinate) {
       const Vector3d arm = p - to_eigen(d.p_WB[body]);
       const Vector3d moved = a.cross(arm), faster = by_angle(d, body, arm, v, a);
-      rows.col(coordinate) = near * faster.head<2>() + moved.z() * by_height + faster.z() * by_rise;
-      rows.col(kPositions + coordinate) = near * moved.head<2>() + moved.z() * by_rise;
+      rows.col(coordinate) = near * faster.head<2>() + moved.z() * by_height;
+      rows.col(kPositions + coordinate) = near * moved.head<2>();
     });
   }
   return J;
 }
 
-template Array<Vec3<double>, kFootPoints> sole_slip(const System&, const Data<double>&);
-template Array<Vec3<P>, kFootPoints> sole_slip(const System&, const Data<P>&);
+template Array<Vec3<double>, kFootPoints> sole_slip(const System&, const StandingAhead&, const Data<double>&);
+template Array<Vec3<P>, kFootPoints> sole_slip(const System&, const StandingAhead&, const Data<P>&);
 
 }  // namespace mimicx::control

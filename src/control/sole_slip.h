@@ -1,11 +1,12 @@
 /// Slip of the points of the soles, with its derivatives by the state.                     docs/control.md §6
 ///
-///     r = ν v_xy,   ν = 1 / (1 + (z₋/h)²),   z₋ = max(0, z + Δ min(0, v_z))
+///     r = max(ν, ν*) v_xy,   ν = 1 / (1 + (z₋/h)²),   z₋ = max(0, z)
 ///
-/// z and v are a point's height over the ground under it and its velocity, h = kNearFloor, Δ = kAhead. A
-/// point on the floor counts with its whole velocity; a swinging point counts less the higher it is. The cost
-/// therefore favours standing still or lifting the foot. A falling foot counts at its height one frame ahead,
-/// because friction stops it as soon as it lands.
+/// z and v are a point's height over the ground under it and its velocity, h = kNearFloor. A point on the
+/// floor counts with its whole velocity; a swinging point counts less the higher it is. The cost therefore
+/// favours standing still or lifting the foot. ν* says whether the goal's point stands within the next two
+/// frames. A foot that is to land must already be at rest over its place, because friction stops it as soon
+/// as it lands. How fast it comes down does not count: that would reward a foot that lands late.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,15 +16,29 @@
 
 namespace mimicx::control {
 
-inline constexpr double kNearFloor = 0.005;   ///< h, m
-inline constexpr double kAhead = 1.0 / 30.0;  ///< Δ, s
+inline constexpr double kNearFloor = 0.005;  ///< h, m
+inline constexpr int kFramesAhead = 2;
 
-/// r of every sole point, m/s, world; z is zero. @param kinematics  of the state (`update_kinematics`)
+/// ν* of every point of the soles.
+using StandingAhead = Array<double, kFootPoints>;
+/// ν* of all frames of a goal:
+///
+///     ν*_t = max_{t < s ≤ t + kFramesAhead} 1 / ((1 + (z₋/h)²) (1 + (d/h)²))
+///
+/// z is the height of the goal's point in frame s, and d the way that it moves over the ground until the
+/// frame after.
+List<StandingAhead> standing_ahead(const System& system, const List<State<double>>& goal);
+
+/// r of every sole point, m/s, world; z is zero.
+/// @param ahead       ν* of the frame
+/// @param kinematics  of the state (`update_kinematics`)
 template <class T>
-Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const Data<T>& kinematics);
+Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const StandingAhead& ahead,
+                                      const Data<T>& kinematics);
 
 /// Derivatives of r (x and y, point after point) by the 122 coordinates of tangent.h.
 using SoleSlipJacobian = Eigen::Matrix<double, 2 * kFootPoints, kTangent>;
-SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& kinematics);
+SoleSlipJacobian sole_slip_jacobian(const System& system, const StandingAhead& ahead,
+                                    const Data<double>& kinematics);
 
 }  // namespace mimicx::control
