@@ -140,11 +140,13 @@ Quaterniond frame_of(const Vector3d& across, const Vector3d& along) {
   return Quaterniond(m);
 }
 
-/// Turns an upper limb so that its hinge is perpendicular to the plane of its two bones, if they are not in
-/// line.
-/// @param q  of the limb, its bone in place
-Quaterniond with_hinge(const Quaterniond& q, int hinge, const Vector3d& upper, const Vector3d& lower) {
-  const Vector3d u = upper.normalized(), across = u.cross(lower.normalized()), now = q * hinge_axis(hinge);
+/// Turns a body about its bone so that an axis is perpendicular to the plane of the bone and a neighbour, if
+/// they are not in line.
+/// @param q     of the body, its bone in place
+/// @param axis  in the body's frame
+Quaterniond with_hinge(const Quaterniond& q, const Vector3d& axis, const Vector3d& bone,
+                       const Vector3d& neighbour) {
+  const Vector3d u = bone.normalized(), across = u.cross(neighbour.normalized()), now = q * axis;
   const double shown = std::clamp((across.norm() - kStraightSine) / (kBentSine - kStraightSine), 0.0, 1.0);
   if (shown == 0.0) return q;
   const Vector3d flat = (now - now.dot(u) * u).normalized();
@@ -175,13 +177,19 @@ Rotations rotations_of(const Character& character, const Positions& p) {
     for (const Limb& limb : kLimbs) {
       if (b == limb.upper) {
         q[b] = swung(q[b], character.joint_offset[limb.lower], p[limb.lower] - p[b]);
-        q[b] = with_hinge(q[b], limb.lower, p[limb.lower] - p[b], p[limb.end] - p[limb.lower]);
+        q[b] = with_hinge(q[b], hinge_axis(limb.lower), p[limb.lower] - p[b], p[limb.end] - p[limb.lower]);
       }
       if (b == limb.lower) q[b] = swung(q[b], character.joint_offset[limb.end], p[limb.end] - p[b]);
     }
     for (const auto& [from, to] :
          {std::pair{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}, {kNeck, kHead}})
       if (b == from) q[b] = swung(q[b], character.joint_offset[to], p[to] - p[b]);
+    // Feet turn with the shank and bend; how far they roll does not show.
+    if (b == kLeftAnkle || b == kRightAnkle) {
+      const int toes = b == kLeftAnkle ? kLeftFoot : kRightFoot, knee = kParents[b];
+      const Vector3d axis = character.joint_offset[toes].cross(character.joint_offset[b]).normalized();
+      q[b] = with_hinge(q[b], axis, p[toes] - p[b], p[b] - p[knee]);
+    }
   }
   return q;
 }
@@ -227,6 +235,7 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   motion.name = name;
   motion.path = path;
   motion.fps = kPositionsFps;
+  motion.positions_only = true;
   motion.metric_up = features ? 'y' : 0;
   motion.warnings = origin_warnings(frames);
   motion.joints = joints_of(character, frames, path);

@@ -306,12 +306,18 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   Calibration calibration = calibrate(character, source.neutral, source.turns, source.map);
   const Twists twists = measure_twists(character, calibration, source.frames);
   calibration = calibrate(character, source.neutral, source.turns, source.map, twists);
-  solve(character, calibration, source.frames, report.leg_ratio, clip);
-  level_soles(source.neutral_stands, calibration, clip);
-  solve(character, calibration, source.frames, report.leg_ratio, clip);
+  const auto solve_all = [&] {
+    solve(character, calibration, source.frames, report.leg_ratio, clip);
+    if (motion.positions_only) level_rolls(character, clip);
+  };
+  solve_all();
+  // A skeleton's rest pose says how its feet stand; joint positions have none.
+  level_soles(source.neutral_stands, (motion.positions_only ? 1.0 : 5.0) * kDegree, calibration, clip);
+  solve_all();
   if (has_other_legs(character, lengths[kThigh], lengths[kShank]))
     keep_contacts(character, source.frames, report.leg_ratio, clip);
-  report.lift = put_on_floor(clip);
+  report.lift = put_on_floor(motion.positions_only, clip);
+  if (motion.positions_only) extend_toes(clip);
   bend_hands(clip);
   report.neutral = source.neutral_name;
   measure(clip, source, report.lift, report);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/elementary.h"
 #include "core/number_text.h"
 #include "core/quantile.h"
 #include "core/units.h"
@@ -16,20 +17,29 @@ namespace {
 
 constexpr std::size_t kEnough = 10;  ///< standing frames
 
-/// Median of "up" in the ankle's frame while the foot stands; none where it hardly does.
-std::optional<Vector3d> standing_up(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
+/// The third of the frames in which a foot stands with the lowest ankle: the heel rises while the ball still
+/// stands. Empty where it hardly stands.
+std::vector<int> flat_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
   const PerFrame<bool> stands = motion::standing_frames(poses, ankle, fps);
   std::vector<std::pair<double, int>> order;  // height of the ankle, frame
   for (int t = 0; t < poses.count(); ++t)
     if (stands[t]) order.emplace_back(poses[t].p_WB[ankle].z(), t);
-  if (order.size() < kEnough) return std::nullopt;
+  if (order.size() < kEnough) return {};
   std::sort(order.begin(), order.end());
   order.resize((order.size() + 2) / 3);
+  std::vector<int> frames;
+  for (const auto& [height, t] : order) frames.push_back(t);
+  return frames;
+}
+
+/// Median of "up" in the ankle's frame while the foot is flat; none where it hardly stands.
+std::optional<Vector3d> standing_up(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
+  const std::vector<int> flat = flat_frames(poses, ankle, fps);
+  if (flat.empty()) return std::nullopt;
   Vector3d up;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
-    for (const auto& [height, t] : order)
-      values.push_back((poses[t].q_WB[ankle].conjugate() * Vector3d::UnitZ())[axis]);
+    for (const int t : flat) values.push_back((poses[t].q_WB[ankle].conjugate() * Vector3d::UnitZ())[axis]);
     up[axis] = median(values);
   }
   return up.normalized();
@@ -65,8 +75,8 @@ Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
-void level_soles(bool neutral_stands, Calibration& calibration, motion::Clip& clip) {
-  constexpr double kLeast = 5.0 * kDegree, kAlike = 15.0 * kDegree;
+void level_soles(bool neutral_stands, double least, Calibration& calibration, motion::Clip& clip) {
+  constexpr double kAlike = 15.0 * kDegree;
   const double most = (neutral_stands ? 30.0 : 60.0) * kDegree;
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   std::optional<Vector3d> left = standing_up(poses, kLeftAnkle, clip.fps);
@@ -79,7 +89,7 @@ void level_soles(bool neutral_stands, Calibration& calibration, motion::Clip& cl
   const auto level = [&](const std::optional<Vector3d>& up, int ankle, int toes, const char* side) {
     if (!up) return;
     const double angle = angle_between(*up, Vector3d::UnitY());
-    if (angle < kLeast || angle > most) return;
+    if (angle < least || angle > most) return;
     const Quaterniond turn = rotation_between(Vector3d::UnitY(), *up);
     for (const int body : {ankle, toes}) {
       Quaterniond& q_JB = calibration.q_JB[body];
@@ -92,21 +102,58 @@ void level_soles(bool neutral_stands, Calibration& calibration, motion::Clip& cl
   level(right, kRightAnkle, kRightFoot, "right");
 }
 
-double put_on_floor(motion::Clip& clip) {
+void level_rolls(const Character& character, motion::Clip& clip) {
+  constexpr double kMost = 30.0 * kDegree, kEase = 0.15;  // s
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  const int reach = static_cast<int>(std::lround(kEase * clip.fps));
+  for (const auto& [ankle, toes] : {std::pair{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}}) {
+    const PerFrame<bool> stands = motion::standing_frames(poses, ankle, clip.fps);
+    const Vector3d along_B = character.joint_offset[toes].normalized();
+    const Vector3d across_B = Vector3d::UnitY().cross(along_B).normalized();
+    PerFrame<double> roll(poses.size(), 0.0);  // that makes the sole level
+    for (int t = 0; t < poses.count(); ++t) {
+      const Quaterniond& q = poses[t].q_WB[ankle];
+      const Vector3d along = q * along_B, across = q * across_B;
+      roll[t] = std::clamp(-atan2(across.z(), along.cross(across).z()), -kMost, kMost);
+    }
+    for (int t = 0; t < poses.count(); ++t) {
+      int far = 0;  // frames to the nearest in which the foot stands
+      const auto stands_at = [&](int s) { return s >= 0 && s < poses.count() && stands[s]; };
+      while (far <= reach && !stands_at(t - far) && !stands_at(t + far)) ++far;
+      const double share = 1.0 - static_cast<double>(far) / (reach + 1);
+      if (share > 0.0) {
+        Vector3d& rotation = clip.rotations[t][ankle];
+        rotation = log_map(exp_map(rotation) * exp_map(share * roll[t] * along_B));
+      }
+    }
+  }
+}
+
+double put_on_floor(bool rigid_toes, motion::Clip& clip) {
   const auto points = motion::surface_points(make_character(clip.usable_betas()));
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  const PerFrame<bool> left = motion::standing_frames(poses, kLeftAnkle, clip.fps);
-  const PerFrame<bool> right = motion::standing_frames(poses, kRightAnkle, clip.fps);
-  std::vector<double> feet, all;  // heights of the lowest points
+  std::vector<double> all;  // heights of the lowest points
+  PerFrame<Array<double, 2>> of_foot(poses.size());
   for (int t = 0; t < poses.count(); ++t) {
     const std::vector<Vector3d> p = motion::surface_positions(points, poses[t]);
-    const auto lowest = [&](std::size_t count) {  // of the first points: those of the feet stand in front
-      double z = p[0].z();
-      for (const Vector3d& point : std::span(p).first(count)) z = std::min(z, point.z());
+    const auto lowest = [&](std::size_t first, std::size_t count) {  // points of the feet stand in front
+      double z = p[first].z();
+      for (const Vector3d& point : std::span(p).subspan(first, count)) z = std::min(z, point.z());
       return z;
     };
-    if (left[t] || right[t]) feet.push_back(lowest(kFootPoints));
-    all.push_back(lowest(p.size()));
+    of_foot[t] = {lowest(0, kPointsPerFoot), lowest(kPointsPerFoot, kPointsPerFoot)};
+    all.push_back(lowest(0, p.size()));
+  }
+  std::vector<double> feet;  // of standing feet
+  if (rigid_toes) {
+    for (const int foot : {0, 1})
+      for (const int t : flat_frames(poses, foot == 0 ? kLeftAnkle : kRightAnkle, clip.fps))
+        feet.push_back(of_foot[t][foot]);
+  } else {
+    const PerFrame<bool> left = motion::standing_frames(poses, kLeftAnkle, clip.fps);
+    const PerFrame<bool> right = motion::standing_frames(poses, kRightAnkle, clip.fps);
+    for (int t = 0; t < poses.count(); ++t)
+      if (left[t] || right[t]) feet.push_back(std::min(of_foot[t][0], of_foot[t][1]));
   }
   const bool stands = feet.size() >= kEnough;
   const std::vector<double>& heights = stands ? feet : all;
@@ -114,6 +161,18 @@ double put_on_floor(motion::Clip& clip) {
   for (Vector3d& trans : clip.trans) trans.z() += lift;
   clip.decisions.push_back(formatted("floor: moved %.3f m %s", std::abs(lift), lift < 0.0 ? "down" : "up"));
   return lift;
+}
+
+void extend_toes(motion::Clip& clip) {
+  const Character character = make_character(clip.usable_betas());
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  for (int t = 0; t < poses.count(); ++t)
+    for (const int ball : {kLeftFoot, kRightFoot}) {
+      const double angle = motion::toe_extension(character, poses[t], ball);
+      if (angle == 0.0) continue;
+      Vector3d& rotation = clip.rotations[t][ball];
+      rotation = log_map(exp_map(rotation) * exp_map(Vector3d(-angle, 0.0, 0.0)));
+    }
 }
 
 void bend_hands(motion::Clip& clip) {

@@ -31,8 +31,9 @@ struct SkeletonMotion {
   std::string name;  ///< file name without folder and suffix
   std::string path;  ///< of the file, for messages
   double fps = 30.0;
-  double largest_angle = 0.0;  ///< magnitude of a rotation channel, as the file has it; 0: no channels
-  char metric_up = 0;          ///< the format defines metres and, usually y, up; 0: retargeting detects both
+  double largest_angle = 0.0;   ///< magnitude of a rotation channel, as the file has it; 0: no channels
+  bool positions_only = false;  ///< made of joint positions, which do not show how far feet roll
+  char metric_up = 0;           ///< the format defines metres and, usually y, up; 0: retargeting detects both
   PerJoint<SkeletonJoint> joints;
   PerFrame<PerJoint<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
   PerFrame<PerJoint<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent

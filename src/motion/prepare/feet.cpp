@@ -105,26 +105,31 @@ PerFrame<double> support_heights(const Reference& reference) {
                           reference.scene, false);
 }
 
+double toe_extension(const Character& character, const BodyPoses& pose, int ball, const Scene& scene) {
+  const Vector3d& p = pose.p_WB[ball];
+  const auto lowest = [&](double angle) {  // of the toe points, extended by that angle
+    const Quaterniond bent = pose.q_WB[ball] * exp_map(Vector3d(-angle, 0, 0));
+    double z = scene.clearance(p);
+    for (const ContactPoint& point : character.contact_points)
+      if (point.body == ball) z = std::min(z, scene.clearance(p + bent * point.p_B));
+    return z;
+  };
+  if (lowest(0.0) >= 0.0) return 0.0;
+  double low = 0.0, high = kLargestBend;
+  for (int halving = 0; halving < 30; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (lowest(middle) < 0.0 ? low : high) = middle;
+  }
+  return high;
+}
+
 void bend_toes(Reference& reference) {
   for (int t = 0; t < reference.size(); ++t)
     for (int ball : {kLeftFoot, kRightFoot}) {
-      const Vector3d& p = reference.poses[t].p_WB[ball];
-      const Quaterniond& q = reference.poses[t].q_WB[ball];
-      const auto lowest = [&](double angle) {  // of the toe points, extended by that angle
-        const Quaterniond bent = q * exp_map(Vector3d(-angle, 0, 0));
-        double z = reference.scene.clearance(p);
-        for (const ContactPoint& point : reference.character.contact_points)
-          if (point.body == ball) z = std::min(z, reference.scene.clearance(p + bent * point.p_B));
-        return z;
-      };
-      if (lowest(0.0) >= 0.0) continue;
-      double low = 0.0, high = kLargestBend;
-      for (int halving = 0; halving < 30; ++halving) {
-        const double middle = 0.5 * (low + high);
-        (lowest(middle) < 0.0 ? low : high) = middle;
-      }
+      const double angle = toe_extension(reference.character, reference.poses[t], ball, reference.scene);
+      if (angle == 0.0) continue;
       Quaterniond& joint = reference.frames[t].q[ball];
-      joint = (joint * exp_map(Vector3d(-high, 0, 0))).normalized();
+      joint = (joint * exp_map(Vector3d(-angle, 0, 0))).normalized();
     }
 }
 

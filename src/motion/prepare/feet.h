@@ -35,6 +35,10 @@ PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const
 /// converted motions seldom bend their toes, and stiff toes that dip at push-off do not show the floor.
 PerFrame<double> support_heights(const Reference& reference);
 
+/// The angle, rad, by which toes that reach below the ground must extend to lie on it: at most 60°; 0 where
+/// they do not. @param ball  kLeftFoot or kRightFoot
+double toe_extension(const Character& character, const BodyPoses& pose, int ball, const Scene& scene = {});
+
 /// Extends toes that reach below the ground until they lie on it, by at most 60°. `poses` must be
 /// those of `frames` and are not updated.
 void bend_toes(Reference& reference);
