@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "control/cost.h"
@@ -11,10 +12,13 @@
 namespace mimicx::control {
 namespace {
 
-Array<Vec3<double>, kFootPoints> slip_of(const System& system, const State<double>& x) {
+constexpr StandingAhead kNotAhead{};  ///< a goal whose soles stay in the air
+
+Array<Vec3<double>, kFootPoints> slip_of(const System& system, const State<double>& x,
+                                         const StandingAhead& ahead = kNotAhead) {
   const auto d = std::make_unique<Data<double>>();
   update_kinematics(system.exact_model, x, *d);
-  return sole_slip(system, *d);
+  return sole_slip(system, ahead, *d);
 }
 
 struct TurningWalk {
@@ -39,12 +43,15 @@ TEST(SoleSlip, JacobianMatchesDifferences) {
   TurningWalk s;
   const auto d = std::make_unique<Data<double>>();
   constexpr double kStep = 1e-6;
+  StandingAhead ahead{};
+  for (int k = 0; k < kFootPoints; k += 4) ahead[k] = 0.11 * k;
   for (int point = 0; point < kFootPoints; ++point) {
-    s.put(point, 0.003 * (point % 3));
+    s.put(point, 0.001 + 0.003 * (point % 3));
     update_kinematics(s.system.exact_model, s.x, *d);
-    const SoleSlipJacobian J = sole_slip_jacobian(s.system, *d);
+    const SoleSlipJacobian J = sole_slip_jacobian(s.system, ahead, *d);
     for (int k = 0; k < kTangent; ++k) {
-      const auto a = slip_of(s.system, moved(s.x, k, kStep)), b = slip_of(s.system, moved(s.x, k, -kStep));
+      const auto a = slip_of(s.system, moved(s.x, k, kStep), ahead),
+                 b = slip_of(s.system, moved(s.x, k, -kStep), ahead);
       for (int i = 0; i < kFootPoints; ++i) {
         const Vector3d expected = (to_eigen(a[i]) - to_eigen(b[i])) / (2.0 * kStep);
         EXPECT_LT((J.block<2, 1>(2 * i, k) - expected.head<2>()).norm(), 1e-4) << i << ", " << k;
@@ -69,9 +76,9 @@ TEST(SoleSlip, HeightsAreOverThePlateUnderThePoint) {
     EXPECT_LT((to_eigen(low_slip[i]) - to_eigen(high_slip[i])).norm(), 1e-12) << i;
   const auto d = std::make_unique<Data<double>>();
   update_kinematics(s.system.exact_model, s.x, *d);
-  const SoleSlipJacobian J = sole_slip_jacobian(s.system, *d);
+  const SoleSlipJacobian J = sole_slip_jacobian(s.system, kNotAhead, *d);
   update_kinematics(raised.exact_model, high, *d);
-  EXPECT_LT((sole_slip_jacobian(raised, *d) - J).norm(), 1e-9 * J.norm());
+  EXPECT_LT((sole_slip_jacobian(raised, kNotAhead, *d) - J).norm(), 1e-9 * J.norm());
 }
 
 // The rate of change of the positions of points below the floor, by a small step of the pose along its
@@ -100,21 +107,43 @@ TEST(SoleSlip, OnTheFloorItIsTheRateOfThePositions) {
   }
 }
 
-// A body that moves as a whole at 1 m/s: half of the slip is left at h, and all of it where the point will be
-// below the floor a frame later.
-TEST(SoleSlip, FadesWithHeightAndLooksAheadOfAFallingFoot) {
+// A body that moves as a whole at 1 m/s: half of the slip is left at h, and all of it where the goal's point
+// is about to stand. How fast the body comes down changes nothing.
+TEST(SoleSlip, FadesWithHeightButNotWhereTheGoalIsAboutToStand) {
   TurningWalk s;
   for (int body = 0; body < kBodies; ++body) s.x.omega[body] = {0.0, 0.0, 0.0};
+  StandingAhead ahead{};
   const auto slip_at = [&](double height, double rise) {
     s.put(0, height);
     s.x.v_root = {1.0, 0.0, rise};
-    return slip_of(s.system, s.x)[0].x;
+    return slip_of(s.system, s.x, ahead)[0].x;
   };
   EXPECT_NEAR(slip_at(kNearFloor, 0.0), 0.5, 1e-5);
-  EXPECT_NEAR(slip_at(kNearFloor, 0.5), 0.5, 1e-5);
   EXPECT_NEAR(slip_at(0.02, 0.0), 1.0 / 17.0, 1e-5);
-  EXPECT_NEAR(slip_at(0.02, -0.02 / kAhead), 1.0, 1e-5);
+  EXPECT_NEAR(slip_at(0.02, -0.6), 1.0 / 17.0, 1e-5);
   EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
+  ahead[0] = 0.8;
+  EXPECT_NEAR(slip_at(0.02, -0.6), 0.8, 1e-5);
+  EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
+}
+
+// A body whose soles are on the floor from frame 5 on, and move over it by h a frame before frame 7.
+TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
+  TurningWalk s;
+  const Array<Vector3d, kFootPoints> soles = s.soles(s.system.at(5));
+  int lowest = 0;
+  for (int k = 1; k < kFootPoints; ++k)
+    if (soles[k].z() < soles[lowest].z()) lowest = k;
+  List<State<double>> goal(10, s.system.at(5));
+  for (int t = 0; t < goal.count(); ++t) {
+    goal[t].p_root.z += (t < 5 ? 1.0 : 0.0) - soles[lowest].z();
+    goal[t].p_root.x += kNearFloor * std::min(t, 7);
+  }
+  const List<StandingAhead> ahead = standing_ahead(s.system, goal);
+  for (int t = 0; t < goal.count(); ++t) {
+    const double expected = t < 3 || t == 9 ? 0.0 : t < 5 ? 0.5 : 1.0;
+    EXPECT_NEAR(ahead[t][lowest], expected, 1e-4) << t;
+  }
 }
 
 }  // namespace

@@ -7,9 +7,11 @@
 #include "core/error.h"
 #include "core/npz/npy.h"
 #include "core/random.h"
+#include "core/units.h"
 #include "import/motion_file.h"
 #include "import/positions.h"
 #include "motion/made_motions.h"
+#include "motion/prepare/feet.h"
 #include "motion/resample.h"
 #include "synth/synthesize.h"
 
@@ -112,6 +114,54 @@ TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
       if (r.norm() < 0.5) continue;
       EXPECT_GT(std::abs(r.normalized().dot(hinge_axis(knee))), 0.97) << t;
     }
+}
+
+/// Largest angle of a sole that stands with the floor, degrees.
+double steepest_sole(const motion::Clip& clip) {
+  const auto poses = motion::poses_of(clip);
+  double steepest = 0.0;
+  for (const int ankle : {kLeftAnkle, kRightAnkle}) {
+    const auto stands = motion::standing_frames(poses, ankle, clip.fps);
+    for (int t = 0; t < poses.count(); ++t)
+      if (stands[t])
+        steepest = std::max(
+            steepest, angle_between(poses[t].q_WB[ankle] * Vector3d::UnitY(), Vector3d::UnitZ()) / kDegree);
+  }
+  return steepest;
+}
+
+// The knees bend forwards, the toes point 30 degrees outwards: the smallest rotation from the shank to the
+// toes would roll the foot as the shank leans, and one turn of the soles for all frames cannot make them
+// level.
+TEST(JointPositions, SolesOfTurnedFeetStayLevelInASquat) {
+  motion::Clip exact = truth("squat");
+  const auto poses = motion::poses_of(exact);
+  for (int t = 0; t < exact.frames(); ++t)
+    for (const auto& [ankle, out] : {std::pair{kLeftAnkle, 1.0}, {kRightAnkle, -1.0}}) {
+      const Quaterniond turned = rotation_z(out * 30.0 * kDegree) * poses[t].q_WB[ankle];
+      exact.rotations[t][ankle] = log_map(poses[t].q_WB[kParents[ankle]].conjugate() * turned);
+    }
+  ASSERT_LT(steepest_sole(exact), 3.0);
+  EXPECT_LT(steepest_sole(read_positions(positions_of(exact))), 4.0);
+}
+
+// Positions do not show that toes bend. Stiff ones would dip below the floor as the heel rises, and the floor
+// would be sought there.
+TEST(JointPositions, ToesLieOnTheFloorWhereTheHeelRises) {
+  const motion::Clip exact = truth("walk"), clip = read_positions(positions_of(exact));
+  const auto poses = motion::poses_of(clip), expected = motion::poses_of(exact);
+  const Character character = make_character(clip.usable_betas());
+  double lowest = 0.0, farthest = 0.0;
+  for (int t = 0; t < poses.count(); ++t) {
+    for (const ContactPoint& point : character.contact_points)
+      if (point.body == kLeftFoot || point.body == kRightFoot)
+        lowest = std::min(lowest, (poses[t].p_WB[point.body] + poses[t].q_WB[point.body] * point.p_B).z());
+    for (const int ankle : {kLeftAnkle, kRightAnkle})
+      if (expected[t].p_WB[ankle].z() < 0.1)
+        farthest = std::max(farthest, std::abs(poses[t].p_WB[ankle].z() - expected[t].p_WB[ankle].z()));
+  }
+  EXPECT_GT(lowest, -0.005);
+  EXPECT_LT(farthest, 0.010);
 }
 
 TEST(JointPositions, RejectInvalidArraysInOneLine) {
