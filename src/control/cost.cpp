@@ -150,12 +150,14 @@ Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal)
     raise(std::invalid_argument("goal and reference must have the same number of frames"));
   Cost out{cost.weights, std::move(goal), {}, {}, {}, cost.factors, cost.elastic, cost.lead};
   const auto kinematics = std::make_unique<Data<double>>();
+  List<SolePlaces> soles;
   for (const State<double>& x : out.goal) {
     out.p_WB.push_back(poses_of(system, x).p_WB);
     update_kinematics(system.exact_model, x, *kinematics);
     out.momentum.push_back(vector_of(centroidal_momentum(system.exact_model, *kinematics)));
+    soles.push_back(sole_places(system, *kinematics));
   }
-  out.ahead = standing_ahead(system, out.goal);
+  out.ahead = standing_ahead(system, soles);
   return out;
 }
 

@@ -1,7 +1,6 @@
 #include "control/sole_slip.h"
 
 #include <algorithm>
-#include <memory>
 #include <type_traits>
 
 #include "physics/contact.h"
@@ -56,17 +55,17 @@ double nearness_slope(double z) {
 
 }  // namespace
 
-List<StandingAhead> standing_ahead(const System& system, const List<State<double>>& goal) {
+SolePlaces sole_places(const System& system, const Data<double>& d) {
+  SolePlaces places;
+  for (int k = 0; k < kFootPoints; ++k) places[k] = motion_of(system.sole[k], d).p;
+  return places;
+}
+
+List<StandingAhead> standing_ahead(const System& system, const List<SolePlaces>& goal) {
   const int last = goal.count() - 1;
-  const auto d = std::make_unique<Data<double>>();
-  List<Array<Vec3<double>, kFootPoints>> points(goal.size());
-  for (int t = 0; t <= last; ++t) {
-    update_kinematics(system.exact_model, goal[t], *d);
-    for (int k = 0; k < kFootPoints; ++k) points[t][k] = motion_of(system.sole[k], *d).p;
-  }
   const auto stands = [&](int t, int k) {
-    const Vec3<double>& p = points[t][k];
-    const Vec3<double> moves = points[std::min(t + 1, last)][k] - p;
+    const Vec3<double>& p = goal[t][k];
+    const Vec3<double> moves = goal[std::min(t + 1, last)][k] - p;
     const double d2 = (moves.x * moves.x + moves.y * moves.y) / (kNearFloor * kNearFloor);
     return nearness(p.z - ground_height(system.exact_model, p)) / (1.0 + d2);
   };
@@ -85,7 +84,7 @@ Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const StandingAhead&
   Array<Vec3<T>, kFootPoints> slip;
   for (int k = 0; k < kFootPoints; ++k) {
     const auto [p, v] = motion_of(system.sole[k], d);
-    const T near = max(nearness(T(p.z - ground_height(model, p))), T(ahead[k]));
+    const T near = max(nearness(p.z - ground_height(model, p)), T(ahead[k]));
     slip[k] = {near * v.x, near * v.y, T(0.0)};
   }
   return slip;

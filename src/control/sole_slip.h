@@ -19,15 +19,19 @@ namespace mimicx::control {
 inline constexpr double kNearFloor = 0.005;  ///< h, m
 inline constexpr int kFramesAhead = 2;
 
+/// World positions of the points of the soles, m. @param kinematics  of a state (`update_kinematics`)
+using SolePlaces = Array<Vec3<double>, kFootPoints>;
+SolePlaces sole_places(const System& system, const Data<double>& kinematics);
+
 /// ν* of every point of the soles.
 using StandingAhead = Array<double, kFootPoints>;
-/// ν* of all frames of a goal:
+/// ν* of all frames of a goal, from the places of its soles:
 ///
 ///     ν*_t = max_{t < s ≤ t + kFramesAhead} 1 / ((1 + (z₋/h)²) (1 + (d/h)²))
 ///
 /// z is the height of the goal's point in frame s, and d the way that it moves over the ground until the
 /// frame after.
-List<StandingAhead> standing_ahead(const System& system, const List<State<double>>& goal);
+List<StandingAhead> standing_ahead(const System& system, const List<SolePlaces>& goal);
 
 /// r of every sole point, m/s, world; z is zero.
 /// @param ahead       ν* of the frame

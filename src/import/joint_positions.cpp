@@ -183,13 +183,14 @@ Rotations rotations_of(const Character& character, const Positions& p) {
     }
     for (const auto& [from, to] :
          {std::pair{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}, {kNeck, kHead}})
-      if (b == from) q[b] = swung(q[b], character.joint_offset[to], p[to] - p[b]);
-    // Feet turn with the shank and bend; how far they roll does not show.
-    if (b == kLeftAnkle || b == kRightAnkle) {
-      const int toes = b == kLeftAnkle ? kLeftFoot : kRightFoot, knee = kParents[b];
-      const Vector3d axis = character.joint_offset[toes].cross(character.joint_offset[b]).normalized();
-      q[b] = with_hinge(q[b], axis, p[toes] - p[b], p[b] - p[knee]);
-    }
+      if (b == from) {
+        const Vector3d& bone = character.joint_offset[to];
+        q[b] = swung(q[b], bone, p[to] - p[b]);
+        // Feet turn with the shank and bend; how far they roll does not show.
+        if (b != kNeck)
+          q[b] = with_hinge(q[b], bone.cross(character.joint_offset[b]).normalized(), p[to] - p[b],
+                            p[b] - p[kParents[b]]);
+      }
   }
   return q;
 }

@@ -139,7 +139,13 @@ TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
     goal[t].p_root.z += (t < 5 ? 1.0 : 0.0) - soles[lowest].z();
     goal[t].p_root.x += kNearFloor * std::min(t, 7);
   }
-  const List<StandingAhead> ahead = standing_ahead(s.system, goal);
+  const auto d = std::make_unique<Data<double>>();
+  List<SolePlaces> places;
+  for (const State<double>& x : goal) {
+    update_kinematics(s.system.exact_model, x, *d);
+    places.push_back(sole_places(s.system, *d));
+  }
+  const List<StandingAhead> ahead = standing_ahead(s.system, places);
   for (int t = 0; t < goal.count(); ++t) {
     const double expected = t < 3 || t == 9 ? 0.0 : t < 5 ? 0.5 : 1.0;
     EXPECT_NEAR(ahead[t][lowest], expected, 1e-4) << t;

@@ -71,6 +71,11 @@ double least_bend(const std::vector<Vector3d>& points, const Vector3d& wrist, co
   return best;
 }
 
+/// Turns a joint further, in its own frame. @param turn, rotation  rotation vectors
+void turn_by(const Vector3d& turn, Vector3d& rotation) {
+  rotation = log_map(exp_map(rotation) * exp_map(turn));
+}
+
 Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -110,21 +115,15 @@ void level_rolls(const Character& character, motion::Clip& clip) {
     const PerFrame<bool> stands = motion::standing_frames(poses, ankle, clip.fps);
     const Vector3d along_B = character.joint_offset[toes].normalized();
     const Vector3d across_B = Vector3d::UnitY().cross(along_B).normalized();
-    PerFrame<double> roll(poses.size(), 0.0);  // that makes the sole level
-    for (int t = 0; t < poses.count(); ++t) {
-      const Quaterniond& q = poses[t].q_WB[ankle];
-      const Vector3d along = q * along_B, across = q * across_B;
-      roll[t] = std::clamp(-atan2(across.z(), along.cross(across).z()), -kMost, kMost);
-    }
+    const auto stands_at = [&](int t) { return t >= 0 && t < poses.count() && stands[t]; };
     for (int t = 0; t < poses.count(); ++t) {
       int far = 0;  // frames to the nearest in which the foot stands
-      const auto stands_at = [&](int s) { return s >= 0 && s < poses.count() && stands[s]; };
       while (far <= reach && !stands_at(t - far) && !stands_at(t + far)) ++far;
+      if (far > reach) continue;
+      const Vector3d along = poses[t].q_WB[ankle] * along_B, across = poses[t].q_WB[ankle] * across_B;
+      const double level = std::clamp(-atan2(across.z(), along.cross(across).z()), -kMost, kMost);
       const double share = 1.0 - static_cast<double>(far) / (reach + 1);
-      if (share > 0.0) {
-        Vector3d& rotation = clip.rotations[t][ankle];
-        rotation = log_map(exp_map(rotation) * exp_map(share * roll[t] * along_B));
-      }
+      turn_by(share * level * along_B, clip.rotations[t][ankle]);
     }
   }
 }
@@ -169,9 +168,7 @@ void extend_toes(motion::Clip& clip) {
   for (int t = 0; t < poses.count(); ++t)
     for (const int ball : {kLeftFoot, kRightFoot}) {
       const double angle = motion::toe_extension(character, poses[t], ball);
-      if (angle == 0.0) continue;
-      Vector3d& rotation = clip.rotations[t][ball];
-      rotation = log_map(exp_map(rotation) * exp_map(Vector3d(-angle, 0.0, 0.0)));
+      if (angle > 0.0) turn_by(Vector3d(-angle, 0.0, 0.0), clip.rotations[t][ball]);
     }
 }
 
@@ -188,8 +185,7 @@ void bend_hands(motion::Clip& clip) {
     const Vector3d axis = (is_right(wrist) ? -1.0 : 1.0) * Vector3d::UnitZ();
     for (int t = 0; t < poses.count(); ++t) {
       const double bend = least_bend(hand, poses[t].p_WB[wrist], poses[t].q_WB[wrist], axis);
-      Vector3d& rotation = clip.rotations[t][wrist];
-      if (bend != 0.0) rotation = log_map(exp_map(rotation) * exp_map(bend * axis));
+      if (bend != 0.0) turn_by(bend * axis, clip.rotations[t][wrist]);
       most = std::max(most, std::abs(bend));
     }
   }
