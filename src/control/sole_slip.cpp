@@ -63,17 +63,20 @@ SolePlaces sole_places(const System& system, const Data<double>& d) {
 
 List<StandingAhead> standing_ahead(const System& system, const List<SolePlaces>& goal) {
   const int last = goal.count() - 1;
+  /// 1 / (1 + (d/scale)²)
+  const auto rests = [&](int t, int k, double scale) {
+    const Vec3<double> d = (1.0 / scale) * (goal[std::min(t + 1, last)][k] - goal[t][k]);
+    return 1.0 / (1.0 + d.x * d.x + d.y * d.y);
+  };
   const auto stands = [&](int t, int k) {
     const Vec3<double>& p = goal[t][k];
-    const Vec3<double> moves = goal[std::min(t + 1, last)][k] - p;
-    const double d2 = (moves.x * moves.x + moves.y * moves.y) / (kNearFloor * kNearFloor);
-    return nearness(p.z - ground_height(system.exact_model, p)) / (1.0 + d2);
+    return nearness(p.z - ground_height(system.exact_model, p)) * rests(t, k, kNearFloor);
   };
   List<StandingAhead> ahead(goal.size());
   for (int t = 0; t <= last; ++t)
     for (int k = 0; k < kFootPoints; ++k)
       for (int s = t + 1; s <= std::min(t + kFramesAhead, last); ++s)
-        ahead[t][k] = std::max(ahead[t][k], stands(s, k));
+        ahead[t][k] = std::max(ahead[t][k], stands(s, k) * rests(t, k, kSwinging));
   return ahead;
 }
 

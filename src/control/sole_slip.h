@@ -4,9 +4,10 @@
 ///
 /// z and v are a point's height over the ground under it and its velocity, h = kNearFloor. A point on the
 /// floor counts with its whole velocity; a swinging point counts less the higher it is. The cost therefore
-/// favours standing still or lifting the foot. ν* says whether the goal's point stands within the next two
-/// frames. A foot that is to land must already be at rest over its place, because friction stops it as soon
-/// as it lands. How fast it comes down does not count: that would reward a foot that lands late.
+/// favours standing still or lifting the foot. ν* says whether the goal's point comes to rest now and stands
+/// within the next two frames. A foot that is to land must already be at rest over its place, because
+/// friction stops it as soon as it lands. How fast it comes down does not count: that would reward a foot
+/// that lands late. Nor does a foot count that the goal still swings: it would be braked too early.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,6 +18,7 @@
 namespace mimicx::control {
 
 inline constexpr double kNearFloor = 0.005;  ///< h, m
+inline constexpr double kSwinging = 0.03;    ///< H, m per frame
 inline constexpr int kFramesAhead = 2;
 
 /// World positions of the points of the soles, m. @param kinematics  of a state (`update_kinematics`)
@@ -27,9 +29,9 @@ SolePlaces sole_places(const System& system, const Data<double>& kinematics);
 using StandingAhead = Array<double, kFootPoints>;
 /// ν* of all frames of a goal, from the places of its soles:
 ///
-///     ν*_t = max_{t < s ≤ t + kFramesAhead} 1 / ((1 + (z₋/h)²) (1 + (d/h)²))
+///     ν*_t = max_{t < s ≤ t + kFramesAhead} 1 / ((1 + (z₋_s/h)²) (1 + (d_s/h)²) (1 + (d_t/H)²))
 ///
-/// z is the height of the goal's point in frame s, and d the way that it moves over the ground until the
+/// z_s is the height of the goal's point in frame s, and d_s the way that it moves over the ground until the
 /// frame after.
 List<StandingAhead> standing_ahead(const System& system, const List<SolePlaces>& goal);
 

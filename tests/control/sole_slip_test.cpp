@@ -127,8 +127,9 @@ TEST(SoleSlip, FadesWithHeightButNotWhereTheGoalIsAboutToStand) {
   EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
 }
 
-// A body whose soles are on the floor from frame 5 on, and move over it by h a frame before frame 7.
-TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
+/// ν* of the lowest sole point of a body whose soles are on the floor from frame 5 on. Before frame 7 it moves
+/// by `step` a frame, m.
+List<double> ahead_of_landing(double step) {
   TurningWalk s;
   const Array<Vector3d, kFootPoints> soles = s.soles(s.system.at(5));
   int lowest = 0;
@@ -137,7 +138,7 @@ TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
   List<State<double>> goal(10, s.system.at(5));
   for (int t = 0; t < goal.count(); ++t) {
     goal[t].p_root.z += (t < 5 ? 1.0 : 0.0) - soles[lowest].z();
-    goal[t].p_root.x += kNearFloor * std::min(t, 7);
+    goal[t].p_root.x += step * std::min(t, 7);
   }
   const auto d = std::make_unique<Data<double>>();
   List<SolePlaces> places;
@@ -145,11 +146,24 @@ TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
     update_kinematics(s.system.exact_model, x, *d);
     places.push_back(sole_places(s.system, *d));
   }
-  const List<StandingAhead> ahead = standing_ahead(s.system, places);
-  for (int t = 0; t < goal.count(); ++t) {
-    const double expected = t < 3 || t == 9 ? 0.0 : t < 5 ? 0.5 : 1.0;
-    EXPECT_NEAR(ahead[t][lowest], expected, 1e-4) << t;
+  List<double> of_lowest;
+  for (const StandingAhead& ahead : standing_ahead(s.system, places)) of_lowest.push_back(ahead[lowest]);
+  return of_lowest;
+}
+
+TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
+  const List<double> ahead = ahead_of_landing(kNearFloor);
+  const double slows = 1.0 / (1.0 + square(kNearFloor / kSwinging));
+  for (int t = 0; t < ahead.count(); ++t) {
+    const double expected = t < 3 || t == 9 ? 0.0 : t < 5 ? 0.5 * slows : t < 7 ? slows : 1.0;
+    EXPECT_NEAR(ahead[t], expected, 1e-4) << t;
   }
+}
+
+TEST(SoleSlip, GoalThatSwingsItsFootIsNotAboutToStand) {
+  EXPECT_NEAR(ahead_of_landing(kSwinging)[6], 0.5, 1e-4);
+  EXPECT_NEAR(ahead_of_landing(0.1)[6], 1.0 / (1.0 + square(0.1 / kSwinging)), 1e-4);
+  EXPECT_LT(ahead_of_landing(0.1)[4], 0.001);
 }
 
 }  // namespace

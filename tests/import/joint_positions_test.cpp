@@ -116,6 +116,40 @@ TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
     }
 }
 
+/// The clip's joints, as of a person whose knee joint moves up the thigh as it bends, by up to 3 cm.
+NpyArray with_moving_knees(const motion::Clip& clip) {
+  const NpyArray array = positions_of(clip);
+  Eigen::MatrixXd rows = to_matrix(array);
+  for (Eigen::Index t = 0; t < rows.rows(); ++t)
+    for (const int hip : {kLeftHip, kRightHip}) {
+      const auto joint = [&](int b) { return Vector3d(rows.row(t).segment<3>(3 * b)); };
+      const int knee = hip + 3, ankle = hip + 6;
+      const Vector3d thigh = joint(knee) - joint(hip), shank = joint(ankle) - joint(knee);
+      const double bend = angle_between(thigh, shank);
+      rows.row(t).segment<3>(3 * knee) -= 0.015 * (1.0 - std::cos(bend)) * thigh.normalized();
+    }
+  NpyArray moved = from_matrix(rows);
+  moved.shape = array.shape;
+  return moved;
+}
+
+// Bones of one length that keep the directions of such a leg end 1 to 2 cm beside its ankle.
+TEST(JointPositions, AnklesKeepTheirPlacesWhereTheKneeJointMoves) {
+  const motion::Clip exact = truth("squat"), clip = read_positions(with_moving_knees(exact));
+  const auto poses = motion::poses_of(clip), expected = motion::poses_of(exact);
+  double farthest = 0.0, deepest = 1.0;
+  for (int t = 0; t < poses.count(); ++t)
+    for (const int ankle : {kLeftAnkle, kRightAnkle}) {
+      const auto from_hips = [&](const BodyPoses& pose) {
+        return Vector3d(pose.p_WB[ankle] - 0.5 * (pose.p_WB[kLeftHip] + pose.p_WB[kRightHip]));
+      };
+      deepest = std::min(deepest, from_hips(expected[t]).norm());
+      farthest = std::max(farthest, std::abs(from_hips(poses[t]).norm() - from_hips(expected[t]).norm()));
+    }
+  ASSERT_LT(deepest, 0.6);
+  EXPECT_LT(farthest, 0.005);
+}
+
 /// Largest angle of a sole that stands with the floor, degrees.
 double steepest_sole(const motion::Clip& clip) {
   const auto poses = motion::poses_of(clip);

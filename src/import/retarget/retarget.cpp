@@ -314,7 +314,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   // A skeleton's rest pose says how its feet stand; joint positions have none.
   level_soles(source.neutral_stands, (motion.positions_only ? 1.0 : 5.0) * kDegree, calibration, clip);
   solve_all();
-  if (has_other_legs(character, lengths[kThigh], lengths[kShank]))
+  if (motion.positions_only || has_other_legs(character, lengths[kThigh], lengths[kShank]))
     keep_contacts(character, source.frames, report.leg_ratio, clip);
   report.lift = put_on_floor(motion.positions_only, clip);
   if (motion.positions_only) extend_toes(clip);

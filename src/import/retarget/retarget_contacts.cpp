@@ -71,13 +71,22 @@ std::vector<double> eased(const std::vector<double>& shifts, double fps) {
   return out;
 }
 
-/// Bends a leg so that its ankle is at `target`; the foot keeps its rotation in the world.
+/// Distance from hip to ankle, m: `wanted`, but for legs that are nearly straight. The change of their `own`
+/// distance stays below half of what they lack to be straight: else their knees would bend with every
+/// millimetre.
+double eased_distance(double own, double wanted, double length) {
+  const double most = 0.5 * std::max(length - own, 1e-9), change = wanted - own;
+  return own + change / hypot(1.0, change / most);
+}
+
+/// Bends a leg so that its ankle comes to `target`; the foot keeps its rotation in the world.
 void reach_for(const Character& character, const LegJoints& leg, const Vector3d& target, BodyPoses& pose) {
   const double thigh = character.joint_offset[leg.knee].norm(),
                shank = character.joint_offset[leg.ankle].norm();
   const Vector3d hip = pose.p_WB[leg.hip], to = target - hip;
   const double far = 0.9999 * (thigh + shank), near = 1.0001 * std::abs(thigh - shank) + 1e-6;
-  const double distance = std::clamp(to.norm(), near, far);
+  const double own = (pose.p_WB[leg.ankle] - hip).norm();
+  const double distance = std::clamp(eased_distance(own, to.norm(), thigh + shank), near, far);
   const Vector3d axis = to.normalized();
   Vector3d bend = pose.p_WB[leg.knee] - hip;
   bend -= bend.dot(axis) * axis;
@@ -105,25 +114,21 @@ void keep_contacts(const Character& character, const PerFrame<Landmarks>& frames
   double most = 0.0;
   for (int t = 0; t < poses.count(); ++t) {
     BodyPoses& pose = poses[t];
-    std::array<Vector3d, 2> target;
-    for (std::size_t i = 0; i < 2; ++i)
-      target[i] =
-          pose.p_WB[kSides[i].hip] + leg_ratio * (frames[t].p[kSides[i].ankle] - frames[t].p[kSides[i].hip]);
+    const Vector3d hips = 0.5 * (pose.p_WB[kLeftHip] + pose.p_WB[kRightHip]),
+                   their_hips = frames[t].between(kLeftHip, kRightHip);
     const double shift = shifts[static_cast<std::size_t>(t)];
     most = std::max(most, std::abs(shift));
     clip.trans[t].z() += shift;
     for (Vector3d& p : pose.p_WB) p.z() += shift;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const LegJoints& leg = kSides[i];
-      reach_for(character, leg, target[i], pose);
+    for (const LegJoints& leg : kSides) {
+      reach_for(character, leg, hips + leg_ratio * (frames[t].p[leg.ankle] - their_hips), pose);
       for (const int b : {leg.hip, leg.knee, leg.ankle})
         clip.rotations[t][b] = log_map(pose.q_WB[kParents[b]].conjugate() * pose.q_WB[b]);
     }
   }
   clip.decisions.emplace_back(
       std::string(
-          "thighs and shanks are in other proportions than the skeleton's: legs are bent so that ankles "
-          "keep their places") +
+          "legs are bent so that ankles keep their places, whatever the proportions of thigh and shank") +
       (most > 0.005 ? ", and the pelvis is moved so that kneeling knees stay on the floor" : ""));
 }
 

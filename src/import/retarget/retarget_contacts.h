@@ -1,8 +1,10 @@
-/// Keeps what touches the floor there, where our body's bones cannot have the skeleton's proportions.
+/// Keeps what touches the floor in its place, where our body's bones have other proportions than the
+/// skeleton's.
 ///
 /// Retargeting keeps the directions of the bones. Where thigh and shank have other lengths than the
-/// skeleton's, a bent leg then ends elsewhere: standing feet hover, kneeling knees float. This step bends
-/// each leg so that its ankle is where the skeleton's is from the hip, and lowers or raises the pelvis so
+/// skeleton's, or where the lengths that joint positions show change with the knee's angle, a bent leg then
+/// ends elsewhere: standing feet hover, feet land late, kneeling knees float. This step bends each leg so
+/// that its ankle is where the skeleton's is from the middle of the hips, and lowers or raises the pelvis so
 /// that resting knees lie on the floor.
 #pragma once
 
