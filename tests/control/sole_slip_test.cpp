@@ -127,8 +127,8 @@ TEST(SoleSlip, FadesWithHeightButNotWhereTheGoalIsAboutToStand) {
   EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
 }
 
-/// ν* of the lowest sole point of a body whose soles are on the floor from frame 5 on. Before frame 7 it moves
-/// by `step` a frame, m.
+/// ν* of the lowest sole point of a body whose soles are on the floor from frame 5 on. Before frame 7 it
+/// moves by `step` a frame, m.
 List<double> ahead_of_landing(double step) {
   TurningWalk s;
   const Array<Vector3d, kFootPoints> soles = s.soles(s.system.at(5));

@@ -3,11 +3,12 @@
 /// It keeps, in every frame, the directions of thighs, shanks, upper arms and forearms, and of the trunk from
 /// the middle of the hips to the middle of the shoulders; every joint's rotation relative to a neutral pose;
 /// and the path of the middle of the hips, scaled by the ratio of leg lengths so that planted feet stay
-/// planted. Where thigh and shank have other proportions than ours can have, ankles keep their places instead
-/// of shanks and thighs their directions (retarget_contacts.h). β is fitted to the bone lengths. The neutral
-/// pose is the skeleton's rest pose if that is a standing person, else the frames nearest to one. It is found
-/// by geometry, so A-poses, T-poses and rest poses with every bone along x need no tables. Unit and up axis
-/// are detected from the motion. `Clip::decisions` lists every decision.
+/// planted. Where thigh and shank have other proportions than ours can have, and in motions from joint
+/// positions, ankles keep their places instead of shanks and thighs their directions (retarget_contacts.h).
+/// β is fitted to the bone lengths. The neutral pose is the skeleton's rest pose if that is a standing
+/// person, else the frames nearest to one. It is found by geometry, so A-poses, T-poses and rest poses with
+/// every bone along x need no tables. Unit and up axis are detected from the motion. `Clip::decisions` lists
+/// every decision.
 ///
 /// What it does not do: no inverse kinematics (hands do not meet where the proportions differ), no fingers,
 /// no change of frame rate.
