@@ -12,6 +12,7 @@ constexpr double kSigmaOverlap = 0.003;                                         
 constexpr CorrectionSigmas kTurnSigmas = {0.5, 0.02, 0.2, 1e-4, 40, 1.0 / 256};  ///< rad
 constexpr double kOverlapGrows = 1.0 / 3.0;                                      ///< s
 constexpr double kTouching = 1e-6;  ///< m: axes that cross have no direction apart
+constexpr double kDeep = 0.5;       ///< of the sum of the radii: axes that are nearer are deep inside
 
 /// Unknowns of a frame: shoulder (3) and elbow (1) of the left arm, then of the right one.
 constexpr int kArmUnknowns = 8;
@@ -23,6 +24,9 @@ constexpr Array<Turn, 4> kTurns = {
     {{{kLeftShoulder, 0, 3}, {kLeftElbow, 3, 1}, {kRightShoulder, 4, 3}, {kRightElbow, 7, 1}}}};
 
 bool is_of_arm(int body) { return kLimbOf[body] >= 3; }
+bool is_of_trunk(int body) { return body <= kSpine3 && kLimbOf[body] == 0; }
+bool is_upper_arm(int body) { return body == kLeftShoulder || body == kRightShoulder; }
+bool is_forearm(int body) { return body == kLeftElbow || body == kRightElbow; }
 
 PerBody<Quaterniond> turned(const PerBody<Quaterniond>& q, const Turns& c) {
   PerBody<Quaterniond> out = q;
@@ -55,6 +59,29 @@ Eigen::Matrix<double, 3, kArmUnknowns> point_jacobian(const BodyPoses& poses, in
   return J;
 }
 
+/// Unit vector in which a point of an arm leaves the trunk: away from the axis of the trunk's capsule, and
+/// the deeper it is inside, the more to the arm's own side. The nearest side of an elbow that an estimator
+/// left deep inside changes from frame to frame, from front to back.
+Vector3d way_out_of_trunk(const BodyPoses& poses, int arm, int trunk, const Vector3d& apart, double radii) {
+  const Vector3d own_side = poses.q_WB[trunk] * Vector3d(is_right(arm) ? -1.0 : 1.0, 0.0, 0.0);
+  const double deep = std::max(0.0, 1.0 - apart.norm() / (kDeep * radii));
+  return ((1.0 - deep) * apart.normalized() + deep * own_side).normalized();
+}
+
+/// Unit vector in which capsule a leaves capsule b.
+Vector3d way_out(const Character& character, const BodyPoses& poses, int a, int b, const SegmentPair& near) {
+  const double radii = character.capsule[a].radius + character.capsule[b].radius;
+  const auto has_elbow_in = [&](int arm, int trunk, const Vector3d& p) {
+    if (!is_of_trunk(trunk)) return false;
+    if (is_forearm(arm))  // its half at the elbow
+      return (p - poses.p_WB[arm]).norm() < 0.5 * character.joint_offset[kLeftWrist].norm();
+    return is_upper_arm(arm);
+  };
+  if (has_elbow_in(a, b, near.a)) return way_out_of_trunk(poses, a, b, near.a - near.b, radii);
+  if (has_elbow_in(b, a, near.b)) return -way_out_of_trunk(poses, b, a, near.b - near.a, radii);
+  return (near.a - near.b).normalized();
+}
+
 List<Overlap> find_overlaps(const Character& character, const BodyPoses& poses, double allowed) {
   List<Overlap> found;
   for (const auto& [a, b] : character.self_pairs) {
@@ -63,7 +90,7 @@ List<Overlap> find_overlaps(const Character& character, const BodyPoses& poses, 
     const Vector3d apart = near.a - near.b;
     const double excess = character.capsule[a].radius + character.capsule[b].radius - apart.norm() - allowed;
     if (excess <= 0.0 || apart.norm() < kTouching) continue;
-    const Vector3d n = apart.normalized();
+    const Vector3d n = way_out(character, poses, a, b, near);
     found.push_back(
         {excess, -(point_jacobian(poses, a, near.a) - point_jacobian(poses, b, near.b)).transpose() * n});
   }

@@ -24,7 +24,8 @@ double allowed_overlap(int frame, double fps);
 ///
 /// by Gauss–Newton. d is the overlap of a pair of capsules of which at least one belongs to an arm, d₀ is
 /// `allowed_overlap`, and c_t are the turns of both arms in a frame: q exp(c) of a shoulder, θ + c of an
-/// elbow. σ_d = 3 mm, σ_c = 0.5 rad, σ_b = 0.02 rad at 30 frames per second. Velocities do not change.
+/// elbow. An elbow deep inside the trunk leaves it on its own side. σ_d = 3 mm, σ_c = 0.5 rad, σ_b = 0.02 rad
+/// at 30 frames per second. Velocities do not change.
 /// @param reference  q, p_root and poses are set; a reference without such an overlap stays unchanged
 /// @return largest distance that a joint moved, m
 double separate_arms(Reference& reference);

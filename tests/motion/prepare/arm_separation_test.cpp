@@ -62,6 +62,24 @@ TEST(Separation, MovesTheArmHardlyFartherThanItsDepth) {
   EXPECT_LT(moved, 3.0 * (depth - kAllowedOverlap));
 }
 
+// The elbow is 3 cm beside the trunk's axis and goes by 2 mm a frame from its front to its back: the nearest
+// way out changes with it.
+TEST(Separation, AnElbowDeepInsideDoesNotJumpFromFrontToBack) {
+  Clip clip = standing();
+  for (int t = 0; t < clip.frames(); ++t)
+    clip.rotations[t][kLeftShoulder] =
+        log_map(exp_map(Vector3d(0, 0, -2.1)) * exp_map(Vector3d(0, -0.5 + 0.5 * t / 59.0, 0)));
+  Reference reference = prepared(clip, false);
+  const auto elbow = [&](int t) -> Vector3d {
+    const BodyPoses& pose = reference.poses[t];
+    return pose.q_WB[kSpine3].conjugate() * (pose.p_WB[kLeftElbow] - pose.p_WB[kSpine3]);
+  };
+  separate_arms(reference);
+  double fastest = 0.0;
+  for (int t = 0; t + 1 < clip.frames(); ++t) fastest = std::max(fastest, (elbow(t + 1) - elbow(t)).norm());
+  EXPECT_LT(fastest, 0.015);
+}
+
 // As soon as an overlap is gone nothing holds the arm outside: whole steps would jump in and out of it for
 // ever.
 TEST(Separation, EndsOutsideFromEveryDepth) {
