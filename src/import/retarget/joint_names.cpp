@@ -292,11 +292,20 @@ std::vector<std::string> spellings(const std::string& name) {
 }
 
 /// The first joint of the skeleton that the user names for a body.
-void apply_user_map(const NamedJoints& names, const SkeletonMotion& motion, JointMap& map) {
-  for (const auto& [body, joint] : names)
+/// @return a line that tells the bodies of whose names the skeleton has none; empty: it has one of each
+std::string apply_user_map(const NamedJoints& names, const SkeletonMotion& motion, JointMap& map) {
+  PerBody<std::string> asked;
+  for (const auto& [body, joint] : names) {
+    asked[body] += (asked[body].empty() ? "'" : ", '") + printable(joint) + "'";
     for (const std::string& spelling : spellings(joint))
       for (std::size_t j = 0; j < motion.joints.size() && map[body] < 0; ++j)
         if (motion.joints[j].name == spelling) map[body] = static_cast<int>(j);
+  }
+  std::string missing;
+  for (int b = 0; b < kBodies; ++b)
+    if (map[b] < 0 && !asked[b].empty())
+      missing += (missing.empty() ? "" : "; ") + body_in_words(b) + " " + asked[b];
+  return missing.empty() ? missing : "the skeleton has no joint of --joint-map's names: " + missing;
 }
 
 }  // namespace
@@ -334,7 +343,10 @@ JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& u
                     std::vector<std::string>* told) {
   JointMap given;
   given.fill(-1);
-  if (!user_map.empty()) apply_user_map(parse_joint_map(read_text(user_map), user_map), motion, given);
+  if (!user_map.empty()) {
+    const std::string missing = apply_user_map(parse_joint_map(read_text(user_map), user_map), motion, given);
+    if (told != nullptr && !missing.empty()) told->push_back(missing);
+  }
   JointMap map = given;
   find_by_name(motion, map);
   step_over_helpers(motion, given, map);

@@ -9,8 +9,8 @@
 /// the joint between chest and shoulder; so spines may have any length and names.
 ///
 /// A user's file adds names: lines `body = joint name`, with the body names of `kBodyNames`; '#' starts a
-/// comment. Several lines for one body are tried in order, before the built-in words; names that a skeleton
-/// does not have are ignored. A name in UTF-8 is that of a joint in Shift-JIS or GBK, too.
+/// comment. Several lines for one body are tried in order, before the built-in words; a warning tells where a
+/// skeleton has none of a body's names. A name in UTF-8 is that of a joint in Shift-JIS or GBK, too.
 ///
 /// Where names leave a needed body without a joint, or give it an impossible one, the skeleton's shape tells
 /// (skeleton_shape.h).
@@ -32,7 +32,8 @@ using NamedJoints = std::vector<std::pair<int, std::string>>;
 NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path& path);
 
 /// @param user_map  a file of additional names; empty: none
-/// @param told      gets a line where joints are matched by the skeleton's shape; may be null
+/// @param told      gets a line where joints are matched by the skeleton's shape, and where `user_map` names
+///                  joints that the skeleton does not have; may be null
 /// @throws DataError where a required body has no joint, or its joint has the wrong parent
 JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map = {},
                     std::vector<std::string>* told = nullptr);

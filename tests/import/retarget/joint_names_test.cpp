@@ -225,6 +225,17 @@ TEST(JointNames, UserMapNamesJoints) {
   EXPECT_EQ(map[kHead], joint[kHead]);
 }
 
+TEST(JointNames, TellsWhichNamesOfAUserMapTheSkeletonDoesNotHave) {
+  PerBody<int> joint;
+  std::vector<std::string> told;
+  const SkeletonMotion motion = skeleton(test::mixamo_names(), joint);
+  const auto path =
+      write_map("head = Kopf\nhead = Haupt\nneck = Hals\nneck = " + test::mixamo_names()[kNeck] + "\n");
+  map_joints(motion, path, &told);
+  EXPECT_EQ(told, std::vector<std::string>{
+                      "the skeleton has no joint of --joint-map's names: head 'Kopf', 'Haupt'"});
+}
+
 TEST(JointNames, AMapInUtf8NamesJointsInShiftJisAndGbk) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
