@@ -26,6 +26,8 @@ constexpr int kMostPixels = 8192;  ///< along an edge: limits the memory of a pi
 struct RenderArguments {
   std::vector<std::string> files;
   std::filesystem::path out, json;
+  std::optional<int> frames;
+  std::optional<double> rate;
   std::vector<double> at;
   std::vector<std::string> labels;
   picture::PictureConfig picture;
@@ -97,16 +99,29 @@ List<picture::PosedMotion> motions_of(const RenderArguments& a) {
   return motions;
 }
 
-int render(const RenderArguments& a) {
+/// @throws UsageError for options that this kind of picture does not use
+picture::PictureConfig config_of(const RenderArguments& a) {
   picture::PictureConfig config = a.picture;
+  const bool still = config.kind == picture::Kind::kStill, moves = config.kind == picture::Kind::kAnimation;
   config.at = a.at;
+  if (still && config.at.size() > 1)
+    throw UsageError("--at: a still shows one moment, found " + std::to_string(config.at.size()));
+  if (moves && !config.at.empty())
+    throw UsageError("--at: an animation shows all moments; --from and --to choose a part");
+  if (a.frames && still) throw UsageError("--frames: a still shows one moment");
+  if (a.frames && moves)
+    throw UsageError("--frames: an animation shows all moments; --rate chooses how many a second");
+  if (a.rate && !moves) throw UsageError("--rate: only an animation has frames per second");
+  config.moments = a.frames.value_or(config.moments);
+  config.rate = a.rate.value_or(config.rate);
+  return config;
+}
+
+int render(const RenderArguments& a) {
+  const picture::PictureConfig config = config_of(a);
   if (!a.labels.empty() && a.labels.size() != a.files.size())
     throw UsageError("--labels: expected one for each of the " + std::to_string(a.files.size()) +
                      " motions, found " + std::to_string(a.labels.size()));
-  if (config.kind == picture::Kind::kStill && config.at.size() > 1)
-    throw UsageError("--at: a still shows one moment, found " + std::to_string(config.at.size()));
-  if (config.kind == picture::Kind::kAnimation && !config.at.empty())
-    throw UsageError("--at: an animation shows all moments; --from and --to choose a part");
   claim_picture(a);
   const List<picture::PosedMotion> motions = motions_of(a);
   bool forces = false;
@@ -155,8 +170,9 @@ void declare_render(CommandLine& line) {
        {"stroboscope", picture::Kind::kStroboscope},
        {"animation", picture::Kind::kAnimation}},
       "moments side by side; one moment; many moments in one scene; an animated PNG");
-  const Option frames = command.number("--frames", a->picture.moments, {1.0, 200.0},
-                                       "number of moments of a strip or a stroboscope");
+  Option frames =
+      command.number("--frames", a->frames, {1.0, 200.0}, "number of moments of a strip or a stroboscope");
+  frames.defaults_to(std::to_string(a->picture.moments));
   command
       .numbers("--at", a->at, kFromZero,
                "the moments to show, s, separated by commas; default: evenly spread, of a still the one "
@@ -173,7 +189,8 @@ void declare_render(CommandLine& line) {
   command.text(
       "--size", [a](const std::string& text) { take_size(text, a->picture.size); }, "WIDTHxHEIGHT",
       "of the whole picture, pixels; default: fits the motion");
-  command.number("--rate", a->picture.rate, {1.0, 60.0}, "frames per second of an animation");
+  command.number("--rate", a->rate, {1.0, 60.0}, "frames per second of an animation")
+      .defaults_to(formatted("%g", a->picture.rate));
   command.list("--labels", a->labels, "NAME,...", "names of the motions; default: their files");
   command.flag("--arrows", a->arrows, "show the floor's forces, 1 mm per newton");
   command.choice<files::Skin>("--skin", a->skin,

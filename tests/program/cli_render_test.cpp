@@ -22,8 +22,9 @@ struct CliRender : Cli {
 TEST_F(CliRender, DrawsEveryKindFromEveryFormat) {
   for (const char* kind : {"strip", "still", "stroboscope"}) {
     const std::string out = path(std::string(kind) + ".png");
+    const std::string frames = kind == std::string("still") ? "" : " --frames 2";
     const Call call =
-        render(path("a.npz") + " " + path("b.bvh") + " --frames 2 --kind " + kind + " --out " + out);
+        render(path("a.npz") + " " + path("b.bvh") + frames + " --kind " + kind + " --out " + out);
     EXPECT_EQ(call.status, 0) << call.text;
     EXPECT_TRUE(says(call, out + ": 120 x 90 pixels, ")) << call.text;
     EXPECT_TRUE(read_file(out).starts_with("\x89PNG")) << kind;
@@ -49,6 +50,9 @@ TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
       {a + " --at 5" + png, 2, "render: 5.00 s is not in the motion, which ends at 0.63 s"},
       {a + " --at 0.1,0.2 --kind still" + png, 2, "--at: a still shows one moment, found 2"},
       {a + " --kind animation --at 0.1" + png, 2, "--at: an animation shows all moments"},
+      {a + " --kind still --frames 3" + png, 2, "--frames: a still shows one moment"},
+      {a + " --kind animation --frames 3" + png, 2, "--frames: an animation shows all moments"},
+      {a + " --rate 10" + png, 2, "--rate: only an animation has frames per second"},
       {a + " --from 0.5 --to 0.2" + png, 2, "render: it begins at 0.50 s, after its end at 0.20 s"},
       {a + " --labels x,y" + png, 2, "--labels: expected one for each of the 1 motions, found 2"},
       {a + " --arrows" + png, 1, "a.npz: expected a motion with forces, found none: mimicx plan writes"},
@@ -68,10 +72,9 @@ TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
 }
 
 TEST_F(CliRender, ReplacesOwnPicturesAndOthersOnlyByForce) {
-  for (const std::string kind : {"strip", "animation"}) {
+  for (const char* kind : {"strip --frames 2", "animation --rate 3"}) {
     std::ofstream(path("x.png")) << "a photograph";
-    const std::string call =
-        path("a.npz") + " --kind " + kind + " --frames 2 --rate 3 --out " + path("x.png");
+    const std::string call = path("a.npz") + " --kind " + kind + " --out " + path("x.png");
     const Call refused = render(call);
     EXPECT_EQ(refused.status, 2) << refused.text;
     EXPECT_TRUE(says(refused, "x.png exists")) << refused.text;
