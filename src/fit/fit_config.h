@@ -64,7 +64,6 @@ struct FitConfig {
   double tremor_prior_frames = 5.0;       ///< of one that trembles: its errors last less
   double pose_joint_bend = 0.2;           ///< `joint_bend`
   double pose_root_rotation_sigma = 2.5;  ///< degrees
-  double pose_slip_sigma = 0.003;         ///< m per frame
   /// Number of frames at 30 fps whose zero-moment points weigh as much as one. 0: balance is not asked for.
   double balance_frames = 8.0;
 };

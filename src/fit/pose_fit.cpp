@@ -41,7 +41,6 @@ FitProblem problem_of(const motion::Clip& clip, const FitConfig& config) {
   own.prior_frames = problem.penalises_acceleration ? config.tremor_prior_frames : config.pose_prior_frames;
   own.joint_bend = config.pose_joint_bend;
   own.root_rotation_sigma = config.pose_root_rotation_sigma;
-  own.slip_sigma = config.pose_slip_sigma;
   put_on_floor(clip.on_floor, problem);
   return problem;
 }
