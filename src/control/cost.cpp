@@ -78,10 +78,10 @@ void add_momentum_and_contact_terms(const System& system, const Cost& cost, int 
   if (!(cost.weights.slip > 0.0)) return;
   Eigen::Matrix<double, 2 * kFootPoints, 1> slip, slip_weight;
   slip_weight.setConstant(cost.slip_weight());
-  const auto slips = sole_slip(system, cost.ahead[frame], *d);
+  const auto slips = sole_slip(system, cost.landings[frame], *d);
   for (int point = 0; point < kFootPoints; ++point)
     slip.segment<2>(2 * point) = to_eigen(slips[point]).head<2>();
-  add(sole_slip_jacobian(system, cost.ahead[frame], *d), slip, slip_weight);
+  add(sole_slip_jacobian(system, cost.landings[frame], *d), slip, slip_weight);
 }
 
 }  // namespace
@@ -157,7 +157,9 @@ Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal)
     out.momentum.push_back(vector_of(centroidal_momentum(system.exact_model, *kinematics)));
     soles.push_back(sole_places(system, *kinematics));
   }
-  out.ahead = standing_ahead(system, soles);
+  out.landings = landings(system, soles);
+  for (int t = 0; t < out.landings.count(); ++t)
+    for (Landing& landing : out.landings[t]) landing.v *= static_cast<double>(out.factors[t].momentum);
   return out;
 }
 
@@ -192,7 +194,7 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
       out.cost += P(cost.weights.box_sides) * depth * depth;
   }
   if (cost.weights.slip > 0.0) {
-    for (const Vec3<P>& slip : sole_slip(system, cost.ahead[frame], scratch))
+    for (const Vec3<P>& slip : sole_slip(system, cost.landings[frame], scratch))
       out.cost += P(cost.slip_weight()) * dot(slip, slip);
   }
   return out;

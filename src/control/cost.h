@@ -69,7 +69,7 @@ struct Cost {
   List<State<double>> goal;        ///< [frames]
   List<PerBody<Vector3d>> p_WB;    ///< [frames] joint centres of the goal, m
   List<Vector6d> momentum;         ///< [frames] v and ℓ of the goal, m/s, m²/s
-  List<StandingAhead> ahead;       ///< [frames] which of the goal's sole points are about to stand
+  List<Landings> landings;         ///< [frames] of the goal's soles, m_t times v
   List<FrameFactors> factors;      ///< [frames]
   Array<double, kDofs> elastic{};  ///< w_τ (K/m)² of a degree of freedom's distance from its target
   Array<double, kDofs> lead{};     ///< damping over stiffness of the PD controllers, s

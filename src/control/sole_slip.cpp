@@ -61,47 +61,56 @@ SolePlaces sole_places(const System& system, const Data<double>& d) {
   return places;
 }
 
-List<StandingAhead> standing_ahead(const System& system, const List<SolePlaces>& goal) {
+List<Landings> landings(const System& system, const List<SolePlaces>& goal) {
   const int last = goal.count() - 1;
-  /// 1 / (1 + (d/scale)²)
-  const auto rests = [&](int t, int k, double scale) {
-    const Vec3<double> d = (1.0 / scale) * (goal[std::min(t + 1, last)][k] - goal[t][k]);
-    return 1.0 / (1.0 + d.x * d.x + d.y * d.y);
+  /// d_t, m
+  const auto way = [&](int t, int k) {
+    return Eigen::Vector2d(to_eigen(goal[std::min(t + 1, last)][k] - goal[t][k]).head<2>());
+  };
+  /// 1 / (1 + (|d|/scale)²)
+  const auto rests = [](const Eigen::Vector2d& d, double scale) {
+    return 1.0 / (1.0 + d.squaredNorm() / (scale * scale));
   };
   const auto stands = [&](int t, int k) {
     const Vec3<double>& p = goal[t][k];
-    return nearness(p.z - ground_height(system.exact_model, p)) * rests(t, k, kNearFloor);
+    return nearness(p.z - ground_height(system.exact_model, p)) * rests(way(t, k), kNearFloor);
   };
-  List<StandingAhead> ahead(goal.size());
+  List<Landings> out(goal.size());
   for (int t = 0; t <= last; ++t)
-    for (int k = 0; k < kFootPoints; ++k)
+    for (int k = 0; k < kFootPoints; ++k) {
+      Landing& landing = out[t][k];
       for (int s = t + 1; s <= std::min(t + kFramesAhead, last); ++s)
-        ahead[t][k] = std::max(ahead[t][k], stands(s, k) * rests(t, k, kSwinging));
-  return ahead;
+        landing.near = std::max(landing.near, stands(s, k));
+      landing.near *= rests(way(t, k), kSwinging);
+      landing.v = landing.near * system.fps * way(t, k);
+    }
+  return out;
 }
 
 template <class T>
-Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const StandingAhead& ahead, const Data<T>& d) {
+Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const Landings& goal, const Data<T>& d) {
   using std::max;
   const Model<RealOf<T>>& model = model_of<T>(system);
   Array<Vec3<T>, kFootPoints> slip;
   for (int k = 0; k < kFootPoints; ++k) {
     const auto [p, v] = motion_of(system.sole[k], d);
-    const T near = max(nearness(p.z - ground_height(model, p)), T(ahead[k]));
-    slip[k] = {near * v.x, near * v.y, T(0.0)};
+    const T own = nearness(p.z - ground_height(model, p)), high = T(1.0) - own;
+    const T near = max(own, T(goal[k].near));
+    slip[k] = {near * v.x - high * T(goal[k].v.x()), near * v.y - high * T(goal[k].v.y()), T(0.0)};
   }
   return slip;
 }
 
-SoleSlipJacobian sole_slip_jacobian(const System& system, const StandingAhead& ahead, const Data<double>& d) {
+SoleSlipJacobian sole_slip_jacobian(const System& system, const Landings& goal, const Data<double>& d) {
   SoleSlipJacobian J = SoleSlipJacobian::Zero();
   for (int k = 0; k < kFootPoints; ++k) {
     const PointMotion<double> motion = motion_of(system.sole[k], d);
     const Vector3d p = to_eigen(motion.p), v = to_eigen(motion.v);
     const double z = p.z() - ground_height(system.exact_model, motion.p), own = nearness(z);
-    const double near = std::max(own, ahead[k]);
-    const Eigen::Vector2d by_height =
-        own > ahead[k] ? Eigen::Vector2d(nearness_slope(z) * v.head<2>()) : Eigen::Vector2d::Zero();
+    const double near = std::max(own, goal[k].near);
+    Eigen::Vector2d by_nearness = goal[k].v;
+    if (own > goal[k].near) by_nearness += v.head<2>();
+    const Eigen::Vector2d by_height = nearness_slope(z) * by_nearness;
     auto rows = J.middleRows<2>(2 * k);
     rows.col(2) = by_height;
     rows.block<2, 2>(0, kRootVelocity).diagonal().setConstant(near);
@@ -115,7 +124,7 @@ SoleSlipJacobian sole_slip_jacobian(const System& system, const StandingAhead& a
   return J;
 }
 
-template Array<Vec3<double>, kFootPoints> sole_slip(const System&, const StandingAhead&, const Data<double>&);
-template Array<Vec3<P>, kFootPoints> sole_slip(const System&, const StandingAhead&, const Data<P>&);
+template Array<Vec3<double>, kFootPoints> sole_slip(const System&, const Landings&, const Data<double>&);
+template Array<Vec3<P>, kFootPoints> sole_slip(const System&, const Landings&, const Data<P>&);
 
 }  // namespace mimicx::control

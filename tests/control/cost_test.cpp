@@ -93,6 +93,21 @@ TEST(Cost, UncertaintyReducesTheWeightOfItsBodyAlone) {
   EXPECT_EQ(s.cost.tangent_weight(5, kRootRotation), s.cost.weights.root_rotation);
 }
 
+TEST(Cost, FeetMayLandAtTheGoalsSpeedAsFarAsTheGoalIsFeasible) {
+  const System walk = system_of(synthetic_reference("walk", 501, 60));
+  FrameFactors unsure;
+  unsure.momentum = 0.5f;
+  const Cost feasible = make_cost(walk, {}), other = make_cost(walk, {}, List<FrameFactors>(60, unsure));
+  double fastest = 0.0;
+  for (int t = 0; t < walk.frames(); ++t)
+    for (int k = 0; k < kFootPoints; ++k) {
+      EXPECT_EQ(other.landings[t][k].near, feasible.landings[t][k].near);
+      EXPECT_EQ(other.landings[t][k].v, 0.5 * feasible.landings[t][k].v);
+      fastest = std::max(fastest, feasible.landings[t][k].v.norm());
+    }
+  EXPECT_GT(fastest, 0.1) << "m/s: a foot lands";
+}
+
 TEST(Cost, AssistiveForcesCostOnlyInAnAssistedSystem) {
   WalkingScene s;
   Control u{}, before{};

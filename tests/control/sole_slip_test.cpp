@@ -12,13 +12,13 @@
 namespace mimicx::control {
 namespace {
 
-constexpr StandingAhead kNotAhead{};  ///< a goal whose soles stay in the air
+const Landings kInTheAir{};  ///< a goal whose soles stay in the air
 
 Array<Vec3<double>, kFootPoints> slip_of(const System& system, const State<double>& x,
-                                         const StandingAhead& ahead = kNotAhead) {
+                                         const Landings& goal = kInTheAir) {
   const auto d = std::make_unique<Data<double>>();
   update_kinematics(system.exact_model, x, *d);
-  return sole_slip(system, ahead, *d);
+  return sole_slip(system, goal, *d);
 }
 
 struct TurningWalk {
@@ -43,15 +43,15 @@ TEST(SoleSlip, JacobianMatchesDifferences) {
   TurningWalk s;
   const auto d = std::make_unique<Data<double>>();
   constexpr double kStep = 1e-6;
-  StandingAhead ahead{};
-  for (int k = 0; k < kFootPoints; k += 4) ahead[k] = 0.11 * k;
+  Landings goal{};
+  for (int k = 0; k < kFootPoints; k += 4) goal[k] = {0.11 * k, {0.05 * k, -0.02 * k}};
   for (int point = 0; point < kFootPoints; ++point) {
     s.put(point, 0.001 + 0.003 * (point % 3));
     update_kinematics(s.system.exact_model, s.x, *d);
-    const SoleSlipJacobian J = sole_slip_jacobian(s.system, ahead, *d);
+    const SoleSlipJacobian J = sole_slip_jacobian(s.system, goal, *d);
     for (int k = 0; k < kTangent; ++k) {
-      const auto a = slip_of(s.system, moved(s.x, k, kStep), ahead),
-                 b = slip_of(s.system, moved(s.x, k, -kStep), ahead);
+      const auto a = slip_of(s.system, moved(s.x, k, kStep), goal),
+                 b = slip_of(s.system, moved(s.x, k, -kStep), goal);
       for (int i = 0; i < kFootPoints; ++i) {
         const Vector3d expected = (to_eigen(a[i]) - to_eigen(b[i])) / (2.0 * kStep);
         EXPECT_LT((J.block<2, 1>(2 * i, k) - expected.head<2>()).norm(), 1e-4) << i << ", " << k;
@@ -76,9 +76,9 @@ TEST(SoleSlip, HeightsAreOverThePlateUnderThePoint) {
     EXPECT_LT((to_eigen(low_slip[i]) - to_eigen(high_slip[i])).norm(), 1e-12) << i;
   const auto d = std::make_unique<Data<double>>();
   update_kinematics(s.system.exact_model, s.x, *d);
-  const SoleSlipJacobian J = sole_slip_jacobian(s.system, kNotAhead, *d);
+  const SoleSlipJacobian J = sole_slip_jacobian(s.system, kInTheAir, *d);
   update_kinematics(raised.exact_model, high, *d);
-  EXPECT_LT((sole_slip_jacobian(raised, kNotAhead, *d) - J).norm(), 1e-9 * J.norm());
+  EXPECT_LT((sole_slip_jacobian(raised, kInTheAir, *d) - J).norm(), 1e-9 * J.norm());
 }
 
 // The rate of change of the positions of points below the floor, by a small step of the pose along its
@@ -112,24 +112,41 @@ TEST(SoleSlip, OnTheFloorItIsTheRateOfThePositions) {
 TEST(SoleSlip, FadesWithHeightButNotWhereTheGoalIsAboutToStand) {
   TurningWalk s;
   for (int body = 0; body < kBodies; ++body) s.x.omega[body] = {0.0, 0.0, 0.0};
-  StandingAhead ahead{};
+  Landings goal{};
   const auto slip_at = [&](double height, double rise) {
     s.put(0, height);
     s.x.v_root = {1.0, 0.0, rise};
-    return slip_of(s.system, s.x, ahead)[0].x;
+    return slip_of(s.system, s.x, goal)[0].x;
   };
   EXPECT_NEAR(slip_at(kNearFloor, 0.0), 0.5, 1e-5);
   EXPECT_NEAR(slip_at(0.02, 0.0), 1.0 / 17.0, 1e-5);
   EXPECT_NEAR(slip_at(0.02, -0.6), 1.0 / 17.0, 1e-5);
   EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
-  ahead[0] = 0.8;
+  goal[0].near = 0.8;
   EXPECT_NEAR(slip_at(0.02, -0.6), 0.8, 1e-5);
   EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
 }
 
-/// ν* of the lowest sole point of a body whose soles are on the floor from frame 5 on. Before frame 7 it
-/// moves by `step` a frame, m.
-List<double> ahead_of_landing(double step) {
+// 2 cm over the floor a foot may move as fast as the goal's; on the floor it has to rest.
+TEST(SoleSlip, FootThatIsToLandMayMoveAsTheGoals) {
+  TurningWalk s;
+  for (int body = 0; body < kBodies; ++body) s.x.omega[body] = {0.0, 0.0, 0.0};
+  s.x.v_root = {0.3, -0.2, 0.0};
+  Landings goal{};
+  goal[0] = {0.8, 0.8 * Eigen::Vector2d(0.3, -0.2)};
+  s.put(0, 0.02);
+  const auto high = slip_of(s.system, s.x, goal);
+  EXPECT_NEAR(high[0].x, 0.8 * 0.3 / 17.0, 1e-5);
+  EXPECT_NEAR(high[0].y, -0.8 * 0.2 / 17.0, 1e-5);
+  s.put(0, -0.001);
+  const auto low = slip_of(s.system, s.x, goal);
+  EXPECT_EQ(low[0].x, 0.3);
+  EXPECT_EQ(low[0].y, -0.2);
+}
+
+/// What the lowest sole point is about to do, of a body whose soles are on the floor from frame 5 on. Before
+/// frame 7 it moves by `step` a frame, m.
+List<Landing> landing(double step) {
   TurningWalk s;
   const Array<Vector3d, kFootPoints> soles = s.soles(s.system.at(5));
   int lowest = 0;
@@ -146,24 +163,32 @@ List<double> ahead_of_landing(double step) {
     update_kinematics(s.system.exact_model, x, *d);
     places.push_back(sole_places(s.system, *d));
   }
-  List<double> of_lowest;
-  for (const StandingAhead& ahead : standing_ahead(s.system, places)) of_lowest.push_back(ahead[lowest]);
+  List<Landing> of_lowest;
+  for (const Landings& goal_points : landings(s.system, places)) of_lowest.push_back(goal_points[lowest]);
   return of_lowest;
 }
 
 TEST(SoleSlip, GoalIsAboutToStandForTwoFrames) {
-  const List<double> ahead = ahead_of_landing(kNearFloor);
+  const List<Landing> found = landing(kNearFloor);
   const double slows = 1.0 / (1.0 + square(kNearFloor / kSwinging));
-  for (int t = 0; t < ahead.count(); ++t) {
+  for (int t = 0; t < found.count(); ++t) {
     const double expected = t < 3 || t == 9 ? 0.0 : t < 5 ? 0.5 * slows : t < 7 ? slows : 1.0;
-    EXPECT_NEAR(ahead[t], expected, 1e-4) << t;
+    EXPECT_NEAR(found[t].near, expected, 1e-4) << t;
+  }
+}
+
+TEST(SoleSlip, GoalsVelocityIsItsWayUntilTheNextFrame) {
+  const List<Landing> found = landing(0.002);
+  for (int t = 0; t < found.count(); ++t) {
+    EXPECT_NEAR(found[t].v.x(), t < 7 ? found[t].near * 0.002 * 30.0 : 0.0, 1e-9) << t;
+    EXPECT_NEAR(found[t].v.y(), 0.0, 1e-9) << t;
   }
 }
 
 TEST(SoleSlip, GoalThatSwingsItsFootIsNotAboutToStand) {
-  EXPECT_NEAR(ahead_of_landing(kSwinging)[6], 0.5, 1e-4);
-  EXPECT_NEAR(ahead_of_landing(0.1)[6], 1.0 / (1.0 + square(0.1 / kSwinging)), 1e-4);
-  EXPECT_LT(ahead_of_landing(0.1)[4], 0.001);
+  EXPECT_NEAR(landing(kSwinging)[6].near, 0.5, 1e-4);
+  EXPECT_NEAR(landing(0.1)[6].near, 1.0 / (1.0 + square(0.1 / kSwinging)), 1e-4);
+  EXPECT_LT(landing(0.1)[4].near, 0.001);
 }
 
 }  // namespace
