@@ -81,6 +81,11 @@ bool holds(const judge::Evaluation& evaluation, const std::string& folder, const
   return all;
 }
 
+void tell_decisions(const judge::Evaluation& evaluation) {
+  for (const judge::EvaluatedMotion& motion : evaluation.motions)
+    for (const std::string& line : motion.told) std::cerr << line << '\n';
+}
+
 int evaluate_published(const EvaluateArguments& a) {
   const auto& names = motion::protocol_names();
   const auto protocol =
@@ -102,7 +107,7 @@ int evaluate_published(const EvaluateArguments& a) {
 
 int evaluate_against_plates(const EvaluateArguments& a) {
   if (a.motions.size() > 1)
-    throw std::invalid_argument("--forces compares one folder of --motions, or one file");
+    throw UsageError("evaluate: --forces compares one folder of --motions, or one file");
   const judge::ForceTable table = judge::evaluate_forces(
       a.forces, a.motions.front(), a.read.mass.value_or(std::numeric_limits<double>::quiet_NaN()));
   table_stream(a.json) << judge::format_forces(table);
@@ -113,8 +118,7 @@ int evaluate_against_plates(const EvaluateArguments& a) {
 }
 
 int evaluate(const EvaluateArguments& a) {
-  if (a.truth.empty() == a.forces.empty())
-    throw std::invalid_argument("evaluate needs --truth, or else --forces");
+  if (a.truth.empty() == a.forces.empty()) throw UsageError("evaluate needs --truth, or else --forces");
   if (!is_standard_output(a.json))
     record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
   if (!a.forces.empty()) return evaluate_against_plates(a);
@@ -122,6 +126,7 @@ int evaluate(const EvaluateArguments& a) {
   const std::vector<Limit> limits = limits_of(a.fail_above);
   if (a.motions.size() > 1) {
     const judge::Comparison comparison = judge::compare_folders(a.truth, a.motions, a.read);
+    for (const judge::Evaluation& evaluation : comparison.evaluations) tell_decisions(evaluation);
     table_stream(a.json) << judge::format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
     const bool none = comparison.evaluations.front().motions.empty();
@@ -131,6 +136,7 @@ int evaluate(const EvaluateArguments& a) {
     return none || !within || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
   const judge::Evaluation evaluation = judge::evaluate_folders(a.truth, a.motions.front(), a.read);
+  tell_decisions(evaluation);
   table_stream(a.json) << judge::format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
   if (!a.json.empty()) write_json(a.json, judge::evaluation_json(evaluation));

@@ -42,7 +42,6 @@ constexpr std::string_view kPathFileType = "PathFileType";
 constexpr std::size_t kHeaderBytes = 1024;  ///< an npy header fits in
 constexpr std::size_t kFirstBytes = 1024;   ///< bytes that identify a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
-constexpr double kMove = 100.0;    ///< m: a motion that begins within half of it from the origin stays
 constexpr const char* kMotions = "a motion (npz, npy, BVH, DeepMimic or .trc)";
 constexpr const char* kConverter =
     "tools/convert_video_results.py converts results of video estimators, and MDM's results.npy";
@@ -100,8 +99,9 @@ void choose_body(const ReadConfig& o, motion::Clip& clip) {
     clip.warnings.emplace_back("--mass and --height change no body of another body model");
   } else {
     clip.decisions.push_back(settle_body(known_body(o), clip.betas));
-    const std::string warning = mass_warning(known_body(o), clip.betas);
-    if (!warning.empty()) clip.warnings.push_back(warning);
+    for (const std::string& warning :
+         {mass_warning(known_body(o), clip.betas), height_warning(known_body(o), clip.betas)})
+      if (!warning.empty()) clip.warnings.push_back(warning);
   }
 }
 
@@ -238,7 +238,7 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
 void settle_place(motion::Clip& clip) {
   if (!clip.scene.flat()) return;  // its boxes are at places of the file
   const Vector3d hundreds = (clip.trans.front() / kMove).array().round();
-  const Vector3d shift(-kMove * hundreds.x(), -kMove * hundreds.y(), 0.0);
+  const Vector3d shift(0.0 - kMove * hundreds.x(), 0.0 - kMove * hundreds.y(), 0.0);  // not -0
   if (shift.isZero(0.0)) return;
   shift_world(shift, clip);
   clip.decisions.push_back(formatted("place: moved by (%.0f, %.0f) m to the origin", shift.x(), shift.y()));

@@ -18,6 +18,9 @@
 
 namespace mimicx::import {
 
+/// m: a motion that begins farther from the origin than half of it is moved there, by a multiple of it.
+inline constexpr double kMove = 100.0;
+
 /// Settings of the user that override what the file says or the reader detects.
 struct ReadConfig {
   std::optional<char> up;  ///< axis that points up in the file: x, y, z; capital letters: the negative axes

@@ -25,6 +25,17 @@ void share_scene(motion::Clip& a, motion::Clip& b) {
   if (b.scene.flat()) b.scene = a.scene;
 }
 
+/// Motions that begin far from the origin were moved there by multiples of 100 m (import/motion_file.h), each
+/// by its own. The motion is moved on by such a multiple, to where it begins nearest to the truth.
+void meet(motion::Clip& clip, const motion::Clip& known) {
+  if (clip.trans.empty() || known.trans.empty() || !known.scene.flat()) return;
+  Vector3d apart = clip.trans.front() - known.trans.front();
+  apart.z() = 0.0;
+  const Vector3d shift = import::kMove * Vector3d((apart / import::kMove).array().round());
+  if (shift.isZero(0.0)) return;
+  for (Vector3d& p : clip.trans) p -= shift;
+}
+
 /// A motion and its truth on their scenes. @throws DataError
 std::pair<motion::Clip, motion::Clip> read_clips(const Pair& pair, const import::ReadConfig& read) {
   motion::Clip clip = import::read_motion(pair.motion, read);
@@ -32,7 +43,17 @@ std::pair<motion::Clip, motion::Clip> read_clips(const Pair& pair, const import:
     throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
   motion::Clip known = import::read_motion(pair.truth, read);
   share_scene(clip, known);
+  meet(clip, known);
   return {std::move(clip), std::move(known)};
+}
+
+/// What the reader decided about a file beyond its format, and its warnings.
+void tell(const std::filesystem::path& file, const motion::Clip& clip, std::vector<std::string>& told) {
+  const auto add = [&](const std::string& line) { told.push_back(file.string() + ": " + line); };
+  const std::vector<std::string>& lines = clip.summary.empty() ? clip.decisions : clip.summary;
+  if (lines.size() > 1 || (!lines.empty() && !lines.front().starts_with("format: ")))
+    for (const std::string& line : lines) add(line);
+  for (const std::string& line : clip.warnings) add(line);
 }
 
 EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const import::ReadConfig& read) {
@@ -40,6 +61,8 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const 
   result.name = name;
   try {
     const auto [clip, known] = read_clips(files, read);
+    tell(files.motion, clip, result.told);
+    tell(files.truth, known, result.told);
     const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
                                 truth = samples_at(known, motion::kMetricRate);
     result.frames = evaluated.frames();
@@ -83,6 +106,28 @@ std::map<std::string, std::filesystem::path> named_motions(const std::filesystem
   return named;
 }
 
+namespace {
+
+/// A truth belongs to the motion of its file name, "walk.bvh", or else of its name, "walk".
+void add_truths(const std::map<std::string, std::filesystem::path>& truths,
+                std::map<std::string, Pair>& pairs) {
+  const auto file_name = [](const std::string& name, const std::filesystem::path& path) {
+    return (std::filesystem::path(name).parent_path() / path.filename()).string();
+  };
+  std::map<std::string, std::string> motions;  // names by file names
+  for (const auto& [name, pair] : pairs) motions[file_name(name, pair.motion)] = name;
+  std::map<std::string, std::filesystem::path> others;
+  for (const auto& [name, path] : truths)
+    if (const auto same = motions.find(file_name(name, path)); same != motions.end())
+      pairs[same->second].truth = path;
+    else
+      others[name] = path;
+  for (const auto& [name, path] : others)
+    pairs[pairs[name].truth.empty() ? name : file_name(name, path)].truth = path;
+}
+
+}  // namespace
+
 std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions) {
   std::map<std::string, Pair> pairs;
   for (const auto& [name, path] : named_motions(motions)) pairs[name].motion = path;
@@ -90,7 +135,7 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
   if (two_files)
     pairs.begin()->second.truth = truth;
   else
-    for (const auto& [name, path] : named_motions(truth)) pairs[name].truth = path;
+    add_truths(named_motions(truth), pairs);
   std::erase_if(pairs, [](const auto& pair) {
     return pair.second.truth.empty() && record::RunFolder::is_part_name(pair.first);
   });

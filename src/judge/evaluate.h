@@ -32,15 +32,17 @@ PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read);
 /// "walk" also for walk.clean.bvh. Equal names are told apart as those of a run's outputs ("walk", "walk-2").
 std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path);
 
-/// Truths and motions by name. A truth and a motion that are both given as files are a pair, whatever their
-/// names. Parts of a motion that failed as a whole (record/run_folder.h) are left out if they have no truth
-/// of their own. Other entries may lack either. @throws DataError if there is no motion
+/// Truths and motions by name; of several with one name, those of one suffix are a pair. A truth and a motion
+/// that are both given as files are a pair, whatever their names. Parts of a motion that failed as a whole
+/// (record/run_folder.h) are left out if they have no truth of their own. Other entries may lack either.
+/// @throws DataError if there is no motion
 std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions);
 
 struct EvaluatedMotion {
   std::string name;  ///< file name without suffix
   bool ok = false;
-  std::string reason;  ///< why it was not evaluated
+  std::string reason;             ///< why it was not evaluated
+  std::vector<std::string> told;  ///< decisions and warnings of the reader, both files, a line each
   int frames = 0;
   motion::Metrics metrics;
 };

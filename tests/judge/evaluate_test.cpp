@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -105,10 +106,35 @@ TEST_F(Evaluate, EqualNamesAreToldApart) {
   import::write_motion(motions / "a.bvh", motion::standing_clip(20));
   const Evaluation e = evaluate_folders(truth, motions);
   ASSERT_EQ(e.motions.size(), 2u);
-  EXPECT_TRUE(e.motions[0].ok) << "a.bvh, the first";
-  EXPECT_NEAR(metric(e.motions[0], "MRPE"), 0.0, 1.0);
+  EXPECT_FALSE(e.motions[0].ok) << "a.bvh, of which there is no truth";
   EXPECT_EQ(e.motions[1].name, "a-2");
-  EXPECT_FALSE(e.motions[1].ok) << "a.npz, whose truth would be a-2";
+  EXPECT_TRUE(e.motions[1].ok) << "a.npz";
+  EXPECT_NEAR(metric(e.motions[1], "MRPE"), 30.0, 1e-3);
+}
+
+TEST_F(Evaluate, TruthHasTheSuffixOfTheMotionWhereThereAreTwo) {
+  add_pair("a", 0.030);
+  import::write_motion(truth / "a.bvh", motion::standing_clip(20));
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 1u);
+  EXPECT_NEAR(metric(e.motions[0], "MRPE"), 30.0, 1e-3);
+  EXPECT_EQ(e.unmatched, std::vector<std::string>{"a.bvh"});
+}
+
+// The reader moves a motion that begins over 50 m away by a multiple of 100 m, here one of the two.
+TEST_F(Evaluate, MotionsOnEitherSideOfFiftyMetresAreAsNearAsTheyAre) {
+  motion::Clip clip = motion::standing_clip(20);
+  const double shift = 49.9 - clip.trans.front().x();
+  for (Vector3d& p : clip.trans) p.x() += shift;
+  motion::write_clip(truth / "a.npz", clip);
+  for (Vector3d& p : clip.trans) p.x() += 0.2;
+  motion::write_clip(motions / "a.npz", clip);
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 1u);
+  EXPECT_NEAR(metric(e.motions[0], "MRPE"), 200.0, 1e-3);
+  EXPECT_TRUE(std::any_of(e.motions[0].told.begin(), e.motions[0].told.end(), [](const std::string& line) {
+    return line.ends_with("a.npz: place: moved by (-100, 0) m to the origin");
+  }));
 }
 
 TEST_F(Evaluate, MissingFileIsNamed) {
