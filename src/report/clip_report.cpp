@@ -116,9 +116,17 @@ ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntr
 }
 
 /// Input and cleaned motion against the truth.
-void compare_with_truth(const ClipFiles& files, const std::vector<ReportMetric>& metrics, ReportRow& row) {
+void compare_with_truth(const ClipFiles& files, const std::vector<ReportMetric>& metrics, ReportRow& row,
+                        std::vector<std::string>& notes) {
   const Seen* truth = files.find(Who::kTruth);
   if (!truth) return;
+  const int known = truth->measured.samples.frames(),
+            frames = files.find(Who::kReference)->measured.samples.frames();
+  if (std::abs(known - frames) > 1) {
+    notes.push_back("not compared with the truth: it has " + std::to_string(known) + " frames, the motion " +
+                    std::to_string(frames));
+    return;
+  }
   for (const auto& [who, column] : {std::pair{Who::kInput, 0}, std::pair{Who::kCleaned, 2}}) {
     const Seen* motion = files.find(who);
     if (!motion) continue;
@@ -249,7 +257,7 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
                  ReportedClip& made) {
   ReportClip& clip = made.clip;
   const ClipFiles files = read_files(folder, entry, truth, clip.notes);
-  compare_with_truth(files, metrics, made.row);
+  compare_with_truth(files, metrics, made.row, clip.notes);
   const Audits audits = audits_of(files, entry.fps);
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].key == kRootForce && audits.input)

@@ -251,6 +251,21 @@ TEST(RunReport, ShowsWhereAClipIsWorseThanItsInputAndWhatWasFollowedInPart) {
   EXPECT_TRUE(row("clip-1", "more sliding").is_null());
 }
 
+TEST(RunReport, TruthOfAnotherLengthIsNotCompared) {
+  Folder run(1);
+  const std::filesystem::path truth = run.folder.path / "truth";
+  motion::Clip other = raised(0.0);
+  other.rotations.resize(other.rotations.size() + 5, other.rotations.back());
+  other.trans.resize(other.rotations.size(), other.trans.back());
+  Folder::write(truth / "clip 0.npz", other);
+  ReportOptions options;
+  options.truth = {{"clip 0", truth / "clip 0.npz"}};
+  const std::string page = run.page(options);
+  EXPECT_TRUE(values(page, "truth:MRPE")[2].is_null());
+  EXPECT_TRUE(json_element(page, "clip-0")["notes"].back().get<std::string>().starts_with(
+      "not compared with the truth: it has "));
+}
+
 TEST(RunReport, ReportsAnUnreadableTruth) {
   Folder run(1);
   ReportOptions options;
