@@ -205,6 +205,13 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   done.timing.seconds = record::steady_seconds() - started;
 }
 
+/// Removes the motion of an earlier run of the same name: `motions/` holds the successes of the manifest.
+void remove_success(const record::RunFolder& folder, const std::string& name) {
+  std::error_code ignored;
+  if (!name.empty())
+    std::filesystem::remove(folder.root / record::RunFolder::motion_name(name, true), ignored);
+}
+
 /// All the work on one input; an error becomes its reason. @param there  its earlier result, or null
 Done work_on(const Worker& worker, const std::string& input, const record::SequenceEntry* there) {
   Done done;
@@ -215,6 +222,7 @@ Done work_on(const Worker& worker, const std::string& input, const record::Seque
     done.entry.ok = false;
     done.entry.reason = reason_of(error);
     done.entry.output.clear();  // so that the same command tries again
+    remove_success(worker.run.folder, done.entry.name);
   }
   return done;
 }

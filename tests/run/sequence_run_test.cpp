@@ -1,6 +1,8 @@
 // Several motions of a run at once: the same results as one after the other.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
@@ -99,6 +101,18 @@ TEST_F(ParallelRun, FailingInputStopsNoOther) {
     EXPECT_EQ(manifest.sequences[k].input, inputs[k]) << "in the inputs' order, whichever is done first";
     EXPECT_EQ(manifest.sequences[k].ok, k != 1);
   }
+}
+
+TEST_F(ParallelRun, InputThatBecameUnreadableHasNoMotionAnyMore) {
+  inputs = {inputs[4], (folder.path / "own.npz").string()};
+  motion::write_clip(inputs[1], motion::standing_clip(8));
+  run(planning("run", 2));
+  const std::filesystem::path motion =
+      record::RunFolder{folder.path / "run"}.root / record::RunFolder::motion_name("own", true);
+  ASSERT_TRUE(std::filesystem::exists(motion));
+  std::ofstream(inputs[1]) << "nothing";
+  EXPECT_EQ(run(planning("run", 2)).value, record::RunOutcome::kSomeFailed);
+  EXPECT_FALSE(std::filesystem::exists(motion));
 }
 
 TEST_F(ParallelRun, PrintsTheMessagesOfAMotionTogether) {
