@@ -1,6 +1,9 @@
 #include "files/clean_copy.h"
 
+#include <algorithm>
+
 #include "core/file.h"
+#include "core/so3.h"
 #include "files/recorded_forces.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
@@ -18,6 +21,21 @@ std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
          "; joints and forces stand beside the simulated body";
 }
 
+/// Leaves out the last frames, or goes on at the velocities of the last two.
+void set_frames(motion::Clip& clip, std::size_t frames) {
+  const motion::Clip before = clip;
+  const int last = before.frames() - 1, other = std::max(last - 1, 0);
+  clip.rotations.resize(frames);
+  clip.trans.resize(frames);
+  for (int t = last + 1; t < clip.frames(); ++t) {
+    const double share = t - other;  // frame `other` is 0, `last` is 1
+    for (int j = 0; j < kBodies; ++j)
+      clip.rotations[t][j] =
+          log_map(slerp(exp_map(before.rotations[other][j]), share, exp_map(before.rotations[last][j])));
+    clip.trans[t] = before.trans[other] + share * (before.trans[last] - before.trans[other]);
+  }
+}
+
 }  // namespace
 
 std::string clean_suffix(const std::filesystem::path& input) {
@@ -28,8 +46,7 @@ std::string clean_suffix(const std::filesystem::path& input) {
 
 motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like) {
   motion::Clip out = motion::resampled(motion, like.fps);
-  out.rotations.resize(like.rotations.size(), out.rotations.back());
-  out.trans.resize(like.trans.size(), out.trans.back());
+  set_frames(out, like.rotations.size());
   out.keypoints = like.keypoints;
   out.passthrough = like.passthrough;
   return out;

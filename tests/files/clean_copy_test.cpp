@@ -87,6 +87,22 @@ TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndHands) {
       EXPECT_LT((copy.rotations[5 * k][j] - simulated.rotations[3 * k][j]).norm(), 1e-9);
 }
 
+// 240 frames a second end up to seven frames after the last frame of the simulation.
+TEST_F(CleanCopy, AtTheInputsRateGoesOnAtItsLastVelocities) {
+  motion::Clip input = motion::standing_clip(48);
+  input.fps = 240.0;
+  for (int t = 0; t < 48; ++t) {
+    input.trans[t].x() += 0.005 * t;
+    input.rotations[t][kLeftElbow] = Vector3d(0.0, 0.01 * t, 0.0);
+  }
+  const motion::Clip copy = at_rate_of(motion::resampled(input, 30.0), input);
+  ASSERT_EQ(copy.frames(), 48);
+  for (int t = 0; t < 48; ++t) {
+    EXPECT_LT((copy.trans[t] - input.trans[t]).norm(), 1e-9) << t;
+    EXPECT_LT((copy.rotations[t][kLeftElbow] - input.rotations[t][kLeftElbow]).norm(), 1e-9) << t;
+  }
+}
+
 TEST_F(CleanCopy, HasTheInputsFormat) {
   const motion::Clip simulated = motion::standing_clip(40);
   motion::write_clip(path("simulated.npz"), simulated);
