@@ -12,7 +12,11 @@ namespace {
 constexpr std::size_t kFewestKeypoints = 6;  ///< joints among the keypoints that a fit needs
 
 /// Why the clip cannot be fitted; empty where it can.
-std::string reason_to_refuse(const FitProblem& problem) {
+std::string reason_to_refuse(const motion::Keypoints& keypoints, const FitProblem& problem) {
+  const auto detected = [](const Vector3d& uvc) { return uvc.z() > 0.0; };
+  if (std::none_of(keypoints.uvc.begin(), keypoints.uvc.end(),
+                   [&](const auto& points) { return std::any_of(points.begin(), points.end(), detected); }))
+    return "no keypoint is detected: not fitted";
   if (problem.points.size() < kFewestKeypoints) return "too few keypoints of known joints: not fitted";
   const auto seen = std::count_if(problem.box.begin(), problem.box.end(), [](double b) { return b > 0.0; });
   if (2 * seen < problem.frames()) return "the camera does not see the motion: not fitted";
@@ -39,7 +43,7 @@ motion::Clip fit_keypoints(const motion::Clip& clip, const FitConfig& config, Fi
     motion::require_usable(clip, 3);
     const motion::Clip calm = with_a_calm_camera(clip, r);
     FitProblem problem = make_problem(calm, config);
-    if (const std::string why = reason_to_refuse(problem); !why.empty())
+    if (const std::string why = reason_to_refuse(*calm.keypoints, problem); !why.empty())
       r.notes.push_back(why);
     else
       fitted = solved(calm, problem, r);

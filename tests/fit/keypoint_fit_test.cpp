@@ -129,6 +129,10 @@ TEST(Fit, ClipWithoutUsableKeypointsStaysUnchangedWithANote) {
   motion::Clip strangers = disturbed(truth_of("stand"), 1);
   for (std::string& name : strangers.keypoints->names) name = "marker_" + name;
   expect_unchanged(strangers, "too few keypoints");
+  motion::Clip undetected = disturbed(truth_of("stand"), 1);
+  for (auto& points : undetected.keypoints->uvc)
+    for (Vector3d& uvc : points) uvc.z() = 0.0;
+  expect_unchanged(undetected, "no keypoint is detected");
   motion::Clip unseen = disturbed(truth_of("stand"), 1);
   unseen.keypoints->extrinsics[0](2, 3) -= 100.0;  // everybody is behind the camera
   expect_unchanged(unseen, "does not see");
