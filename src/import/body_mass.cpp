@@ -12,8 +12,9 @@ namespace {
 constexpr double kStandardStature = 1.718;  ///< m, of the standard body from its soles to the top of its head
 constexpr double kBodyMassIndex = 0.5 * (73.0 / (1.76 * 1.76) + 60.0 / (1.63 * 1.63));  ///< kg/m²
 constexpr int kGirth = 1, kSize = 0;                                                    ///< indices of β
-constexpr double kToldMass = 0.5;   ///< kg: a difference that the user has to know
-constexpr double kSizeGain = 0.03;  ///< of β₀
+constexpr double kToldMass = 0.5;      ///< kg: a difference that the user has to know
+constexpr double kToldStature = 0.01;  ///< m: the same
+constexpr double kSizeGain = 0.03;     ///< of β₀
 
 BodyLengths lengths_of_shape(const std::array<double, kBetas>& betas) {
   return lengths_of(joint_offsets(betas));
@@ -75,6 +76,13 @@ std::string mass_warning(const KnownBody& known, const std::array<double, kBetas
   if (std::isnan(known.mass) || std::abs(mass - known.mass) < kToldMass) return "";
   return formatted("mass: %.1f kg, because our body cannot have the %.1f kg of --mass at its size", mass,
                    known.mass);
+}
+
+std::string height_warning(const KnownBody& known, const std::array<double, kBetas>& betas) {
+  const double stature = usual_stature(lengths_of_shape(betas));
+  if (std::isnan(known.height) || std::abs(stature - known.height) < kToldStature) return "";
+  return formatted("height: %.2f m, because our body cannot have the %.2f m of --height", stature,
+                   known.height);
 }
 
 }  // namespace mimicx::import

@@ -43,5 +43,7 @@ std::string settle_body(const KnownBody& known, std::array<double, kBetas>& beta
 
 /// A warning where the body does not have the mass that the user knows; otherwise empty.
 std::string mass_warning(const KnownBody& known, const std::array<double, kBetas>& betas);
+/// What to tell where `settle_body` could not give the stature that was asked for; else empty.
+std::string height_warning(const KnownBody& known, const std::array<double, kBetas>& betas);
 
 }  // namespace mimicx::import

@@ -54,6 +54,11 @@ TEST(BodyMass, GivenMassOverridesGivenStatureOverridesTheMean) {
   settle_body({.height = 1.9}, betas);
   EXPECT_NEAR(usual_stature(lengths_of(joint_offsets(betas))), 1.9, 1e-9);
   EXPECT_NEAR(mass_of(betas), usual_mass(1.9), 1e-6);
+  EXPECT_EQ(height_warning({.height = 1.9}, betas), "");
+  EXPECT_EQ(height_warning({.mass = 80.0}, betas), "");
+  settle_body({.height = 2.2}, betas);
+  EXPECT_EQ(height_warning({.height = 2.2}, betas),
+            "height: 1.98 m, because our body cannot have the 2.20 m of --height");
 }
 
 TEST(BodyMass, MassSettingChangesFilesOfOurBody) {
