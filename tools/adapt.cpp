@@ -31,9 +31,8 @@ pipeline::options::OptionSets read_sets(const std::vector<std::string>& given, p
   if (given.empty()) places = shipped_sets();
   if (places.empty())
     throw UsageError(
-        "found no trained options beside the program or in MIMICX_DATA: name trained options with --options, "
-        "or take --method "
-        "plan");
+        "found no trained options beside the program or in MIMICX_DATA: name trained options with --options; "
+        "motions are planned without them by --method plan, without --policy");
   pipeline::options::OptionSets sets;
   for (const std::filesystem::path& place : places) {
     sets.push_back(pipeline::options::read_options(place));
