@@ -21,6 +21,14 @@ std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
          "; joints and forces stand beside the simulated body";
 }
 
+/// Mean height of the lower foot's joint, m
+double height_of_feet(const motion::Clip& clip) {
+  double sum = 0.0;
+  for (const BodyPoses& pose : motion::poses_of(clip))
+    sum += std::min(pose.p_WB[kLeftFoot].z(), pose.p_WB[kRightFoot].z());
+  return sum / std::max(clip.frames(), 1);
+}
+
 /// Leaves out the last frames, or goes on at the velocities of the last two.
 void set_frames(motion::Clip& clip, std::size_t frames) {
   const motion::Clip before = clip;
@@ -52,16 +60,19 @@ motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like) {
   return out;
 }
 
-std::string write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
-                             const import::ReadConfig& read, bool input_rate,
-                             const std::filesystem::path& copy) {
+CleanCopy write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
+                           const import::ReadConfig& read, bool input_rate,
+                           const std::filesystem::path& copy) {
   const motion::Clip original = import::read_motion(input, read);
   motion::Clip clean = motion::read_clip(motion);
   if (input_rate && original.fps != clean.fps) clean = at_rate_of(clean, original);
-  const std::string body = settle_body(original, clean);
+  const double simulated = height_of_feet(clean);
+  CleanCopy written;
+  written.body = settle_body(original, clean);
+  written.feet = height_of_feet(clean) - simulated;
   make_folder(copy.parent_path());
   import::write_motion(copy, clean);
-  return body;
+  return written;
 }
 
 }  // namespace mimicx::files

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npz.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "files/clean_copy.h"
 #include "files/motion_output.h"
@@ -110,24 +111,6 @@ std::string look_for_a_scene(const motion::Clip& clip) {
   return "looks like steps or a seat (" + found.words.front() + "): try --scene auto, with another --out";
 }
 
-/// A note where no point of the body comes near any plate of the motion's scene; else empty.
-std::string doubt_scene(const motion::Reference& reference) {
-  constexpr double kNear = 0.3;  // m
-  const List<ContactPoint>& points = reference.character.contact_points;
-  for (Plate plate : reference.scene.plates) {
-    plate.half_extents += Eigen::Vector2d::Constant(kNear);
-    for (const BodyPoses& pose : reference.poses)
-      for (const ContactPoint& point : points) {
-        const Vector3d p = lowest_position(point, pose);
-        if (plate.spans(p) && std::abs(p.z() - plate.height) < kNear) return "";
-      }
-  }
-  return reference.scene.flat()
-             ? ""
-             : "nothing comes near the scene: is it in the world of the motion (metres, z up, yaw in "
-               "radians)?";
-}
-
 /// Reads, fits and prepares the input, and prints the decisions before any training: a user who sees a wrong
 /// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
@@ -142,9 +125,8 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
   const bool looked = run.config.read.scene_from_motion;
-  for (const std::string& note :
-       {looked ? "" : look_for_a_scene(motion.input), doubt_scene(motion.reference)})
-    if (!note.empty()) entry.notes.push_back(note);
+  if (const std::string note = looked ? "" : look_for_a_scene(motion.input); !note.empty())
+    entry.notes.push_back(note);
   entry.input_metrics = motion.input_scores.values;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;
@@ -236,6 +218,8 @@ void add_timing(RunState& run, const std::string& name, const record::Timing& no
   timing.threads = threads;
 }
 
+constexpr double kToldFeet = 0.01;  ///< m
+
 /// Writes a success in its input's format and body convention. For a failed sequence, removes an earlier
 /// copy.
 void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
@@ -247,10 +231,16 @@ void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
     std::filesystem::remove(copy);
     return;
   }
-  const std::string body = files::write_clean_copy(run.folder.root / entry.output, input, run.config.read,
-                                                   run.config.input_rate, copy);
+  const files::CleanCopy written = files::write_clean_copy(run.folder.root / entry.output, input,
+                                                           run.config.read, run.config.input_rate, copy);
   if (run.config.beside && !run.config.quiet)
-    run.context.messages << "  clean motion: " << copy.string() << ", " << body << '\n';
+    run.context.messages << "  clean motion: " << copy.string() << ", " << written.body << '\n';
+  if (std::abs(written.feet) > kToldFeet && !run.config.quiet)
+    run.context.messages << formatted(
+        "  the copy in the input's format has the input's body, whose legs are other than the simulated "
+        "ones: "
+        "its feet are %.0f mm too %s\n",
+        1000.0 * std::abs(written.feet), written.feet > 0.0 ? "high" : "low");
 }
 
 /// Calls `copy_clean` and prints its error. The motion itself is written already; the same command tries the

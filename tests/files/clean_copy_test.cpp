@@ -36,8 +36,9 @@ TEST_F(CleanCopy, HasTheInputsBodyAtTheSimulatedPlace) {
     input.betas[1] = 0.7;
     input.gender = "female";
     motion::write_clip(path("input.npz"), input);
-    const std::string body =
+    const auto [body, feet] =
         write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
+    EXPECT_NEAR(feet, 0.0, 1e-9);
     EXPECT_NE(body.find(model), std::string::npos) << body;
     const Npz file = read_npz(path("copy.npz"));
     EXPECT_NE(file.at("joints").to_double(), joints.to_double()) << "of another body";
@@ -49,6 +50,21 @@ TEST_F(CleanCopy, HasTheInputsBodyAtTheSimulatedPlace) {
     EXPECT_LT(distance(copy, simulated), 1e-12);
     EXPECT_TRUE(read_npz(path("copy.npz")).has("reward"));
   }
+}
+
+// Longer legs under the same pelvis.
+TEST_F(CleanCopy, TellsHowFarTheFeetOfAnotherBodyAreFromTheFloor) {
+  motion::Clip simulated = motion::standing_clip(10);
+  simulated.betas[0] = 2.0;
+  motion::write_clip(path("simulated.npz"), simulated);
+  motion::Clip input = motion::standing_clip(10);
+  input.body_model = "smplh";
+  motion::write_clip(path("input.npz"), input);
+  const double feet =
+      write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz")).feet;
+  const auto foot = [](const motion::Clip& clip) { return motion::poses_of(clip)[0].p_WB[kLeftFoot].z(); };
+  EXPECT_NEAR(feet, foot(motion::read_clip(path("copy.npz"))) - foot(simulated), 1e-6);
+  EXPECT_GT(feet, 0.03) << "m: the copy hangs over the floor";
 }
 
 TEST_F(CleanCopy, KeepsJointsAndForcesWhereTheFitChangedTheShape) {
