@@ -231,6 +231,7 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
   }
   clip.decisions.push_back(said);
   if (!clip.summary.empty()) clip.summary.push_back(said);
+  if (const std::string doubt = scene_doubt(clip); !doubt.empty()) clip.warnings.push_back(doubt);
 }
 
 /// The simulation has single precision, which resolves 2 mm at 20 km. A motion that begins far from the

@@ -121,6 +121,11 @@ TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
   EXPECT_TRUE(says(mimicx("plan " + path("a.npz") + " --limit-seconds 1e-9 --out " + path("far") +
                           " --scene " + path("far.json")),
                    "nothing comes near the scene"));
+  for (const std::string& command :
+       {std::string("info "), "evaluate --truth " + path("a.npz") + " --motions "})
+    EXPECT_TRUE(says(mimicx(command + path("a.npz") + " --scene " + path("far.json")),
+                     "nothing comes near the scene"))
+        << command;
   const Call on_seat = mimicx("plan " + path("a.npz") + " --scene auto --out " + path("seated"));
   EXPECT_EQ(on_seat.status, 0) << on_seat.text;
   EXPECT_TRUE(says(on_seat, "scene: a seat of 0.3")) << on_seat.text;

@@ -14,6 +14,7 @@ constexpr double kSlowFoot = 0.4;  ///< m/s
 constexpr double kFarFoot = 0.1;   ///< m from the ground; farther ones count as this far
 constexpr double kSettled = 0.01;  ///< m
 constexpr std::size_t kFewestSlow = 10;
+constexpr double kNearPlate = 0.3;  ///< m
 
 /// Lowest sole points of feet: of those that hardly move, or of all where these are few.
 std::vector<Vector3d> low_points(const motion::Clip& clip) {
@@ -59,6 +60,21 @@ double scene_lift(const motion::Clip& clip) {
       if (left < least) best = lift, least = left;
     }
   return as_it_is < least + kSettled ? 0.0 : best;
+}
+
+std::string scene_doubt(const motion::Clip& clip) {
+  if (clip.scene.flat()) return "";
+  const Character character = motion::character_of(clip);
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  for (Plate plate : clip.scene.plates) {
+    plate.half_extents += Eigen::Vector2d::Constant(kNearPlate);
+    for (const BodyPoses& pose : poses)
+      for (const ContactPoint& point : character.contact_points) {
+        const Vector3d p = lowest_position(point, pose);
+        if (plate.spans(p) && std::abs(p.z() - plate.height) < kNearPlate) return "";
+      }
+  }
+  return "nothing comes near the scene: is it in the world of the motion (metres, z up, yaw in radians)?";
 }
 
 }  // namespace mimicx::import

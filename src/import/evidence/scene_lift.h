@@ -1,6 +1,8 @@
-/// The height of a motion over a scene: evidence for the constant shift that puts standing feet on the floor
-/// or on plates.
+/// A motion and the scene it is to stand on: the constant shift that puts standing feet on the floor or on
+/// plates, and whether the two belong together.
 #pragma once
+
+#include <string>
 
 #include "motion/clip.h"
 
@@ -11,5 +13,8 @@ namespace mimicx::import {
 /// as it is leaves them within a centimetre of that. Preparation does the rest.
 /// @return height to add, m; 0 for a flat scene
 double scene_lift(const motion::Clip& clip);
+
+/// A warning where no point of the body comes near any plate of the clip's scene; else empty.
+std::string scene_doubt(const motion::Clip& clip);
 
 }  // namespace mimicx::import
