@@ -2,8 +2,9 @@
 ///
 /// Pairs are files of the same name in two folders, of any format that is read, or two files. Both sides go
 /// through forward kinematics with their own shape and free joints. Both are resampled to the rate of the
-/// metrics (motion::kMetricRate); nothing is prepared or moved, so all rows of a table are comparable. The
-/// mean of a metric is over the files that have a value.
+/// metrics (motion::kMetricRate); nothing is prepared, or moved but by multiples of 100 m
+/// (import/motion_file.h), so all rows of a table are comparable. The mean of a metric is over the files that
+/// have a value.
 #pragma once
 
 #include <filesystem>

@@ -237,9 +237,8 @@ void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
     run.context.messages << "  clean motion: " << copy.string() << ", " << written.body << '\n';
   if (std::abs(written.feet) > kToldFeet && !run.config.quiet)
     run.context.messages << formatted(
-        "  the copy in the input's format has the input's body, whose legs are other than the simulated "
-        "ones: "
-        "its feet are %.0f mm too %s\n",
+        "  the copy in the input's format has the input's body with other legs than the simulated body: its "
+        "feet are %.0f mm too %s\n",
         1000.0 * std::abs(written.feet), written.feet > 0.0 ? "high" : "low");
 }
 
