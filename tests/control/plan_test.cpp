@@ -119,8 +119,8 @@ System lifted() {
   return system;
 }
 
-/// The stage with weights two hundred thousand times as large fails; its repetition continues with the root of this
-/// factor, as if planning had started with it.
+/// The stage with weights two hundred thousand times as large fails; its repetition continues with the root
+/// of this factor, as if planning had started with it.
 TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   PlanConfig config = lost_soon();
   config.stiffening = std::sqrt(2e5);
