@@ -11,22 +11,24 @@
 namespace mimicx::files {
 namespace {
 
-/// Chooses the body of a copy. @return a message that says which
-std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
-  if (original.body_model == clean.body_model && original.rest_joints == clean.rest_joints)
-    return "on the simulated body";
-  motion::put_on_body_of(original, clean);
-  remove_recorded(clean);
-  return "on the input's body, " + original.body_model +
-         "; joints and forces stand beside the simulated body";
-}
-
 /// Mean height of the lower foot's joint, m
 double height_of_feet(const motion::Clip& clip) {
   double sum = 0.0;
   for (const BodyPoses& pose : motion::poses_of(clip))
     sum += std::min(pose.p_WB[kLeftFoot].z(), pose.p_WB[kRightFoot].z());
   return sum / std::max(clip.frames(), 1);
+}
+
+/// Chooses the body of a copy.
+CleanCopy settle_body(const motion::Clip& original, motion::Clip& clean) {
+  if (original.body_model == clean.body_model && original.rest_joints == clean.rest_joints)
+    return {"on the simulated body", 0.0};
+  const double simulated = height_of_feet(clean);
+  motion::put_on_body_of(original, clean);
+  remove_recorded(clean);
+  return {
+      "on the input's body, " + original.body_model + "; joints and forces stand beside the simulated body",
+      height_of_feet(clean) - simulated};
 }
 
 /// Leaves out the last frames, or goes on at the velocities of the last two.
@@ -66,10 +68,7 @@ CleanCopy write_clean_copy(const std::filesystem::path& motion, const std::files
   const motion::Clip original = import::read_motion(input, read);
   motion::Clip clean = motion::read_clip(motion);
   if (input_rate && original.fps != clean.fps) clean = at_rate_of(clean, original);
-  const double simulated = height_of_feet(clean);
-  CleanCopy written;
-  written.body = settle_body(original, clean);
-  written.feet = height_of_feet(clean) - simulated;
+  const CleanCopy written = settle_body(original, clean);
   make_folder(copy.parent_path());
   import::write_motion(copy, clean);
   return written;
