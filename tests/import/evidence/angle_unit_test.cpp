@@ -11,7 +11,7 @@
 namespace mimicx::import {
 namespace {
 
-motion::Clip walk() {
+motion::Clip walk_without_keypoints() {
   motion::Clip clip = test::synthetic_clip("walk", 3);
   clip.keypoints.reset();
   return clip;
@@ -40,7 +40,7 @@ std::string in_radians(const motion::Clip& clip) {
 }
 
 TEST(AngleUnit, AWalkInRadiansIsReadAsOne) {
-  const motion::Clip clip = walk(), found = motion_from(in_radians(clip), "radians.bvh");
+  const motion::Clip clip = walk_without_keypoints(), found = motion_from(in_radians(clip), "radians.bvh");
   const auto want = motion::poses_of(clip), got = motion::poses_of(found);
   ASSERT_EQ(want.size(), got.size());
   for (int t = 0; t < got.count(); t += 10) {

@@ -17,7 +17,7 @@ motion::Clip moving(const std::string& kind) {
 }
 
 /// What is decided where `axis` is up in the file.
-UpDecision decided(motion::Clip clip, char axis, char custom) {
+UpDecision decided_up(motion::Clip clip, char axis, char custom) {
   rotate_world(rotation_to_z_up(axis).conjugate(), clip);
   return decide_up(landmarks_of(motion::poses_of(clip)), std::nullopt, custom);
 }
@@ -43,30 +43,30 @@ TEST(UpAxis, WhoeverMovesOnAFloorTellsIt) {
   for (const std::string kind : {"walk", "jump", "squat", "kick", "dance"})
     for (const char axis : {'y', 'z', 'Y'})
       for (const char custom : {'y', 'z'}) {
-        const UpDecision up = decided(moving(kind), axis, custom);
+        const UpDecision up = decided_up(moving(kind), axis, custom);
         EXPECT_EQ(up.axis, axis) << kind << ", custom " << custom << ": " << up.why;
         EXPECT_TRUE(!up.is_near() || axis == 'Y') << kind << ' ' << axis << custom;
       }
-  for (const char axis : {'x', 'X', 'Z'}) EXPECT_EQ(decided(moving("walk"), axis, 'z').axis, axis);
+  for (const char axis : {'x', 'X', 'Z'}) EXPECT_EQ(decided_up(moving("walk"), axis, 'z').axis, axis);
 }
 
 TEST(UpAxis, WhoeverStandsStillIsUpright) {
   for (const int frames : {1, 2, 60})
     for (const char axis : {'y', 'z'})
       for (const char custom : {'y', 'z'})
-        EXPECT_EQ(decided(still(0.0, frames), axis, custom).axis, axis) << frames << ' ' << axis << custom;
+        EXPECT_EQ(decided_up(still(0.0, frames), axis, custom).axis, axis) << frames << ' ' << axis << custom;
 }
 
 TEST(UpAxis, ASleeperIsNotStoodUp) {
   motion::Clip clip = on_floor(still(-test::kPi / 2));
   rotate_world(exp_map(test::kPi / 2 * Vector3d::UnitZ()), clip);  // along x
-  EXPECT_EQ(decided(clip, 'z', 'z').axis, 'z');
+  EXPECT_EQ(decided_up(clip, 'z', 'z').axis, 'z');
 }
 
 TEST(UpAxis, ACrawlerLiesAlongTheFloor) {
   motion::Clip clip = on_floor(still(test::kPi / 2, 90));
   for (int t = 0; t < clip.frames(); ++t) clip.trans[t] += 0.01 * t * Vector3d::UnitY();
-  EXPECT_EQ(decided(clip, 'z', 'z').axis, 'z');
+  EXPECT_EQ(decided_up(clip, 'z', 'z').axis, 'z');
 }
 
 TEST(UpAxis, AHandstandStaysOnItsHands) {
@@ -79,14 +79,14 @@ TEST(UpAxis, AHandstandStaysOnItsHands) {
   }
   rotate_world(exp_map(test::kPi * Vector3d::UnitX()), clip);
   clip = on_floor(clip);
-  EXPECT_EQ(decided(clip, 'z', 'z').axis, 'z');
-  EXPECT_EQ(decided(clip, 'y', 'y').axis, 'y');
+  EXPECT_EQ(decided_up(clip, 'z', 'z').axis, 'z');
+  EXPECT_EQ(decided_up(clip, 'y', 'y').axis, 'y');
 }
 
 TEST(UpAxis, NearlyEqualAxesGiveAWarning) {
   motion::Clip clip = on_floor(still(-test::kPi / 2));  // lies on the floor along y, as a person stands y up
   shift_world({0, 5, 0}, clip);
-  const UpDecision up = decided(clip, 'z', 'z');
+  const UpDecision up = decided_up(clip, 'z', 'z');
   EXPECT_TRUE(up.is_near()) << up.lead;
   EXPECT_NE(near_up_warning(up).find("--up"), std::string::npos);
 }

@@ -85,7 +85,7 @@ TEST(AddNoise, ConstantErrorsHaveTheirSizeAndHeavyTails) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const auto& [body, weight] : weights)
         joints.push_back(std::abs(test::joint_error(truth, noisy, 9, body)[axis]) / weight);
-      root.push_back(std::abs(log_map(q.conjugate() * n)[axis]) / test::kDegree);
+      root.push_back(std::abs(log_map(q.conjugate() * n)[axis]) / kDegree);
     }
     EXPECT_LT((test::joint_error(truth, noisy, 11, kHead) - test::joint_error(truth, noisy, 3, kHead)).norm(),
               1e-6);
@@ -228,7 +228,7 @@ TEST(AddNoise, TravelErrsInSpeedInTheHeadingAndByAFalseVelocity) {
     const Vector3d error = test::joint_error(walk, turning, last, kPelvis);
     EXPECT_LT(error.head<2>().norm(), 1e-6);
     heading.add(error.z());
-    const Vector3d expected = rotation_z(test::kDegree * error.z()) * step(walk, last);
+    const Vector3d expected = rotation_z(kDegree * error.z()) * step(walk, last);
     EXPECT_LT((step(turning, last) - expected).norm(), 1e-9);  // the path turns with the heading
   }
   EXPECT_NEAR(speed.rms(), 0.1, 0.01);
@@ -332,7 +332,7 @@ TEST(AddNoise, PanAndRollErrorsScaleWithTheTiltError) {
     EXPECT_LT((test::camera_position(told) - test::camera_position(exact)).norm(), 1e-9);
     const Matrix3d off =
         told.extrinsics[0].block<3, 3>(0, 0) * plain.extrinsics[0].block<3, 3>(0, 0).transpose();
-    const Vector3d rotation = log_map(Quaterniond(off)) / test::kDegree;
+    const Vector3d rotation = log_map(Quaterniond(off)) / kDegree;
     EXPECT_NEAR(rotation.x(), 0.0, 1e-9);
     turn.add(rotation.y()), turn.add(rotation.z());
   }

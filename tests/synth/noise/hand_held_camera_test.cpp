@@ -66,7 +66,7 @@ TEST(ErroneousCamera, ErrsInFocalLengthAndTilt) {
       const Matrix3d turn =
           told.extrinsics[0].block<3, 3>(0, 0) * exact.extrinsics[0].block<3, 3>(0, 0).transpose();
       EXPECT_NEAR(turn(0, 0), 1.0, 1e-12);
-      tilt.add(std::atan2(turn(2, 1), turn(1, 1)) / test::kDegree);
+      tilt.add(std::atan2(turn(2, 1), turn(1, 1)) / kDegree);
     }
     EXPECT_NEAR(focal.rms(), sigma[0], 0.12 * sigma[0] + 1e-12) << name;
     EXPECT_NEAR(tilt.rms(), sigma[1], 0.12 * sigma[1] + 1e-9) << name;
@@ -138,7 +138,7 @@ TEST(CarriedCamera, GivenPathDriftsWithTheRootOfTime) {
     EXPECT_TRUE(told.extrinsics[0].isApprox(camera.extrinsics[0], 1e-12));
     const Matrix3d off =
         told.extrinsics[last].block<3, 3>(0, 0) * camera.extrinsics[last].block<3, 3>(0, 0).transpose();
-    const Vector3d turned = log_map(Quaterniond(off)) / test::kDegree,
+    const Vector3d turned = log_map(Quaterniond(off)) / kDegree,
                    moved = motion::eye_of(told.extrinsics[last]) - motion::eye_of(camera.extrinsics[last]);
     for (int axis = 0; axis < 3; ++axis) turn.add(turned[axis]), place.add(moved[axis]);
   }

@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/units.h"
 #include "synth/noise/estimator_noise.h"
 #include "synth/synthesize.h"
 
 namespace mimicx::test {
-
-inline constexpr double kDegree = M_PI / 180.0;
 
 inline PerBody<Quaterniond> rotations_of(const motion::Clip& clip, std::size_t t) {
   PerBody<Quaterniond> q;
