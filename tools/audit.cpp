@@ -70,6 +70,7 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs,
   table_stream(a.json) << audit::pose_table_head();
   audit::audit_pose_files(inputs, config, [&](const audit::PoseFile& file) {
     const std::string& name = names[done++];
+    for (const std::string& line : file.told) std::cerr << line << '\n';
     if (file.failure.empty()) {
       table_stream(a.json) << audit::format_poses(name, file);
     } else {

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "core/error.h"
+#include "import/motion_file.h"
 #include "judge/evaluate.h"
 #include "pipeline/cluster_map.h"
 #include "record/folder_lock.h"
@@ -34,6 +36,18 @@ std::filesystem::path clusters_of(const std::filesystem::path& options) {
   return folder / "clusters.json";
 }
 
+/// Tells how a true motion is read, or why it cannot be. @return whether it can
+bool told_truth(const std::filesystem::path& file) {
+  try {
+    for (const std::string& line : import::notable_decisions(file.string(), import::read_motion(file)))
+      std::cerr << line << '\n';
+    return true;
+  } catch (const std::exception& error) {
+    std::cerr << file.string() << ": the truth cannot be shown: " << reason_of(error) << '\n';
+    return false;
+  }
+}
+
 int report(const ReportArguments& a) {
   const record::RunFolder folder{a.run};
   if (!std::filesystem::exists(folder.manifest()))
@@ -60,7 +74,11 @@ int report(const ReportArguments& a) {
                 << ", found no file\n";
       all_good = false;
     }
-    if (a.truth.empty() || options.truth.contains(entry.name)) continue;
+    if (a.truth.empty()) continue;
+    if (const auto truth = options.truth.find(entry.name); truth != options.truth.end()) {
+      all_good = told_truth(truth->second) && all_good;
+      continue;
+    }
     std::cerr << entry.name << ": " << a.truth.string() << " has no truth of that name\n";
     all_good = false;
   }

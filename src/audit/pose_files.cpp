@@ -76,6 +76,7 @@ PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config)
   file.path = path;
   try {
     const motion::Clip clip = import::read_motion(path, config.read);
+    file.told = import::notable_decisions(path, clip);
     motion::require_usable(clip, 3);
     const Character character = motion::character_of(clip);
     const auto [poses, shift] = on_floor(character, clip);

@@ -26,8 +26,9 @@ struct PoseFilesConfig {
 
 struct PoseFile {
   std::string path;
-  std::string failure;       ///< why it was skipped, one line; empty: it was judged
-  double floor_shift = 0.0;  ///< upward shift, m
+  std::string failure;            ///< why it was skipped, one line; empty: it was judged
+  std::vector<std::string> told;  ///< what the reader decided (import::notable_decisions)
+  double floor_shift = 0.0;       ///< upward shift, m
   PoseVerdict verdict;
   PoseNeeds needs;  ///< without frames unless requested
   Slip slip;        ///< with the best floor forces; without speeds

@@ -428,6 +428,15 @@ motion::Clip read_motion(const std::filesystem::path& path, const ReadConfig& co
   }
 }
 
+std::vector<std::string> notable_decisions(const std::string& file, const motion::Clip& clip) {
+  std::vector<std::string> notable;
+  const std::vector<std::string>& lines = clip.summary.empty() ? clip.decisions : clip.summary;
+  if (lines.size() > 1 || (!lines.empty() && !lines.front().starts_with("format: ")))
+    for (const std::string& line : lines) notable.push_back(file + ": " + line);
+  for (const std::string& line : clip.warnings) notable.push_back(file + ": " + line);
+  return notable;
+}
+
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
                          const ReadConfig& config) {
   require_sense(config);

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "motion/clip.h"
 
@@ -52,6 +53,10 @@ motion::Clip read_motion(const std::filesystem::path& path, const ReadConfig& co
 /// The same from bytes in memory. @param path  for messages; its stem is the motion's name
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
                          const ReadConfig& config = {});
+
+/// What a reader of tables should know of how a file was read: the decisions (their summary if there is one)
+/// where there are others than the format, and the warnings; a line each after the file's name.
+std::vector<std::string> notable_decisions(const std::string& file, const motion::Clip& clip);
 
 /// Whether a file holds joint positions only; such files cannot be written.
 bool holds_positions(const std::filesystem::path& path);

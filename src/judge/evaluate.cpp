@@ -47,22 +47,14 @@ std::pair<motion::Clip, motion::Clip> read_clips(const Pair& pair, const import:
   return {std::move(clip), std::move(known)};
 }
 
-/// What the reader decided about a file beyond its format, and its warnings.
-void tell(const std::filesystem::path& file, const motion::Clip& clip, std::vector<std::string>& told) {
-  const auto add = [&](const std::string& line) { told.push_back(file.string() + ": " + line); };
-  const std::vector<std::string>& lines = clip.summary.empty() ? clip.decisions : clip.summary;
-  if (lines.size() > 1 || (!lines.empty() && !lines.front().starts_with("format: ")))
-    for (const std::string& line : lines) add(line);
-  for (const std::string& line : clip.warnings) add(line);
-}
-
 EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const import::ReadConfig& read) {
   EvaluatedMotion result;
   result.name = name;
   try {
     const auto [clip, known] = read_clips(files, read);
-    tell(files.motion, clip, result.told);
-    tell(files.truth, known, result.told);
+    result.told = import::notable_decisions(files.motion.string(), clip);
+    for (std::string& line : import::notable_decisions(files.truth.string(), known))
+      result.told.push_back(std::move(line));
     const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
                                 truth = samples_at(known, motion::kMetricRate);
     result.frames = evaluated.frames();

@@ -137,6 +137,16 @@ TEST_F(CliPoses, UsesTheGivenFloorAndElseDetectsIt) {
   EXPECT_TRUE(says(said, "hovers")) << said.text;
 }
 
+TEST_F(CliPoses, SaysHowAFileWasReadWhereMoreThanItsFormatWasDecided) {
+  motion::Clip clip = synthetic("squat");
+  clip.body_model = "smplx";
+  for (Vector3d& p : clip.trans) p.x() += 300.0;
+  motion::write_clip(path("foreign.npz"), clip);
+  const std::string words = path("foreign.npz") + ": ";
+  EXPECT_TRUE(says(mimicx("audit --poses " + path("foreign.npz")), words));
+  EXPECT_FALSE(says(mimicx("audit --poses " + path("in/good.npz")), path("in/good.npz") + ": "));
+}
+
 TEST_F(CliPoses, HelpBeginsWithTwoExamples) {
   const std::string help = mimicx("audit --help").text;
   EXPECT_LT(help.find("mimicx audit out/run/motions"), help.find("mimicx audit --poses DIR --csv"));

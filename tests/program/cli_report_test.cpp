@@ -40,6 +40,16 @@ TEST_F(CliReport, NamesClipsWithoutTruthAndShowsTheOthers) {
   EXPECT_EQ(page.find("\"who\":\"truth\",\"frames\"", first + 1), std::string::npos);
 }
 
+TEST_F(CliReport, NamesATruthThatCannotBeRead) {
+  std::filesystem::create_directories(path("torn"));
+  std::filesystem::copy(path("in/a.npz"), path("torn/a.npz"));
+  write_file_atomically(path("torn/b.npz"), read_file(path("in/b.npz")).substr(0, 200));
+  const Call call = mimicx("report " + path("run") + " --truth " + path("torn"));
+  EXPECT_EQ(call.status, 1);
+  EXPECT_TRUE(says(call, path("torn/b.npz") + ": the truth cannot be shown: ")) << call.text;
+  EXPECT_EQ(lines_of(call.text).size(), 2u) << call.text;
+}
+
 TEST_F(CliReport, NamesClipsWhoseMotionIsMissing) {
   std::filesystem::rename(path("run/motions/a.npz"), path("a.npz"));
   const Call call = mimicx("report " + path("run"));
