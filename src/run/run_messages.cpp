@@ -37,7 +37,10 @@ std::vector<double> successes(const std::vector<record::SequenceEntry>& entries,
   return out;
 }
 
-double middle(const std::vector<double>& values) { return values.empty() ? std::nan("") : median(values); }
+/// The median, of an even number the mean of the two in the middle; NaN of none.
+double middle(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : 0.5 * (quantile(values, 0.5) + median(values));
+}
 
 std::string duration_of_motions(const std::vector<record::SequenceEntry>& entries) {
   double seconds = 0.0;
@@ -106,7 +109,7 @@ std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entri
                                     record::format_duration(seconds)};
   const std::vector<double> distances = successes(entries, &record::SequenceEntry::metrics, "gMPJPE");
   if (!distances.empty())
-    lines.push_back(formatted("  in the median %.1f mm from the reference, ", median(distances)) +
+    lines.push_back(formatted("  in the median %.1f mm from the reference, ", middle(distances)) +
                     formatted("at most %.1f mm", *std::max_element(distances.begin(), distances.end())));
   for (const judge::Headline& fault : judge::kHeadlines) {
     if (!fault.always) continue;
