@@ -142,8 +142,8 @@ TEST_F(CliPoses, SaysHowAFileWasReadWhereMoreThanItsFormatWasDecided) {
   clip.body_model = "smplx";
   for (Vector3d& p : clip.trans) p.x() += 300.0;
   motion::write_clip(path("foreign.npz"), clip);
-  const std::string words = path("foreign.npz") + ": ";
-  EXPECT_TRUE(says(mimicx("audit --poses " + path("foreign.npz")), words));
+  const Call call = mimicx("audit --poses " + path("foreign.npz"));
+  EXPECT_TRUE(says(call, path("foreign.npz") + ": place: moved by (-300, 0) m to the origin")) << call.text;
   EXPECT_FALSE(says(mimicx("audit --poses " + path("in/good.npz")), path("in/good.npz") + ": "));
 }
 
