@@ -14,6 +14,14 @@ namespace {
 
 motion::Clip synthetic(const std::string& kind) { return test::synthetic_clip(kind, 501); }
 
+/// A squat of a body model that is not ours, moved by `shift` (m).
+void write_foreign_squat(const std::filesystem::path& file, const Vector3d& shift) {
+  motion::Clip clip = synthetic("squat");
+  clip.body_model = "smplx";
+  for (Vector3d& p : clip.trans) p += shift;
+  motion::write_clip(file, clip);
+}
+
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
   std::stringstream in(text);
@@ -127,10 +135,7 @@ TEST_F(CliPoses, ALimitOfFileSizesEndsInALine) {
 }
 
 TEST_F(CliPoses, UsesTheGivenFloorAndElseDetectsIt) {
-  motion::Clip clip = synthetic("squat");
-  clip.body_model = "smplx";
-  for (Vector3d& p : clip.trans) p.z() += 0.3;
-  motion::write_clip(path("foreign.npz"), clip);
+  write_foreign_squat(path("foreign.npz"), {0, 0, 0.3});
   const Call looked_for = mimicx("audit --poses " + path("foreign.npz"));
   EXPECT_FALSE(says(looked_for, "hovers")) << looked_for.text;
   const Call said = mimicx("audit --poses " + path("foreign.npz") + " --floor 0");
@@ -138,10 +143,7 @@ TEST_F(CliPoses, UsesTheGivenFloorAndElseDetectsIt) {
 }
 
 TEST_F(CliPoses, SaysHowAFileWasReadWhereMoreThanItsFormatWasDecided) {
-  motion::Clip clip = synthetic("squat");
-  clip.body_model = "smplx";
-  for (Vector3d& p : clip.trans) p.x() += 300.0;
-  motion::write_clip(path("foreign.npz"), clip);
+  write_foreign_squat(path("foreign.npz"), {300, 0, 0});
   const Call call = mimicx("audit --poses " + path("foreign.npz"));
   EXPECT_TRUE(says(call, path("foreign.npz") + ": place: moved by (-300, 0) m to the origin")) << call.text;
   EXPECT_FALSE(says(mimicx("audit --poses " + path("in/good.npz")), path("in/good.npz") + ": "));
