@@ -428,13 +428,18 @@ motion::Clip read_motion(const std::filesystem::path& path, const ReadConfig& co
   }
 }
 
+std::vector<std::string> told_decisions(const std::string& file, const motion::Clip& clip) {
+  std::vector<std::string> told;
+  for (const auto* lines : {clip.summary.empty() ? &clip.decisions : &clip.summary, &clip.warnings})
+    for (const std::string& line : *lines) told.push_back(file + ": " + line);
+  return told;
+}
+
 std::vector<std::string> notable_decisions(const std::string& file, const motion::Clip& clip) {
-  std::vector<std::string> notable;
-  const std::vector<std::string>& lines = clip.summary.empty() ? clip.decisions : clip.summary;
-  if (lines.size() > 1 || (!lines.empty() && !lines.front().starts_with("format: ")))
-    for (const std::string& line : lines) notable.push_back(file + ": " + line);
-  for (const std::string& line : clip.warnings) notable.push_back(file + ": " + line);
-  return notable;
+  std::vector<std::string> told = told_decisions(file, clip);
+  const std::vector<std::string>& decisions = clip.summary.empty() ? clip.decisions : clip.summary;
+  if (decisions.size() == 1 && decisions.front().starts_with("format: ")) told.erase(told.begin());
+  return told;
 }
 
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,

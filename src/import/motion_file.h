@@ -54,8 +54,11 @@ motion::Clip read_motion(const std::filesystem::path& path, const ReadConfig& co
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
                          const ReadConfig& config = {});
 
-/// What a reader of tables should know of how a file was read: the decisions (their summary if there is one)
-/// where there are others than the format, and the warnings; a line each after the file's name.
+/// What the user is told of how a file was read: the reader's decisions (their summary if there is one) and
+/// warnings, a line each after the file's name.
+std::vector<std::string> told_decisions(const std::string& file, const motion::Clip& clip);
+
+/// The same for tables of many files: without the decisions where the format is the only one.
 std::vector<std::string> notable_decisions(const std::string& file, const motion::Clip& clip);
 
 /// Whether a file holds joint positions only; such files cannot be written.

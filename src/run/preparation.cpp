@@ -129,8 +129,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
 }
 
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out) {
-  for (const auto* lines : {clip.summary.empty() ? &clip.decisions : &clip.summary, &clip.warnings})
-    for (const std::string& line : *lines) out << file << ": " << line << '\n';
+  for (const std::string& line : import::told_decisions(file, clip)) out << line << '\n';
 }
 
 }  // namespace mimicx::run

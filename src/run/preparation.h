@@ -51,8 +51,7 @@ NamedValues settings_of(const CorrectionConfig& correction);
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
                               const CorrectionConfig& correction, int threads = 1);
 
-/// Prints the reader's decisions (their summary if there is one) and warnings, a line each after the file's
-/// name.
+/// Prints `import::told_decisions`.
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);
 
 }  // namespace mimicx::run
