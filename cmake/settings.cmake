@@ -108,7 +108,7 @@ option(MIMICX_UNITY "Compile several files of a room as one" ON)
 # Headers that nearly every piece reads are parsed once for each way of compiling. Precompiled headers bring their options
 # along, the level of optimisation, too: files with options of their own do without.
 set(MIMICX_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <filesystem> <functional> <map>
-  <memory> <optional> <set> <span> <stdexcept> <string> <vector>)
+  <memory> <optional> <set> <span> <stdexcept> <string> <vector> <core/so3.h> <character/character.h> <motion/clip.h>)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/common_headers.cpp CONTENT "// Compiles the common headers.\n")
 
 # MuJoCo is an optional second engine for tests and benchmarks (Debian: libmujoco-dev).

@@ -1,9 +1,10 @@
 #include "audit/non_negative_least_squares.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "core/decompositions.h"
 
 namespace mimicx::audit {
 namespace {
@@ -12,21 +13,19 @@ constexpr int kMostSteps = 200;     ///< observed: under 20; bounds the loop eve
 constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which only rounding is left
 
 /// The line r + part · d on which φ is minimised.
-template <class Wrench>
 struct SearchLine {
-  Wrench r, d;
+  Eigen::VectorXd r, d;
   Eigen::VectorXd at, change;  ///< Aᵀr, Aᵀd
 
   /// Slope of φ along d.
-  double slope(double part, const Wrench& b, double small) const {
+  double slope(double part, const Eigen::VectorXd& b, double small) const {
     return (r + part * d - b).dot(d) + (at + part * change).cwiseMax(0.0).dot(change) / small;
   }
 };
 
 /// The part in [0, 1] at which φ is smallest on the line: its slope, piecewise linear and nondecreasing, is 0
 /// there.
-template <class Wrench>
-double smallest_on(const SearchLine<Wrench>& line, const Wrench& b, double small) {
+double smallest_on(const SearchLine& line, const Eigen::VectorXd& b, double small) {
   const Eigen::VectorXd &at = line.at, &change = line.change;
   const auto slope = [&](double part) { return line.slope(part, b, small); };
   std::vector<double> planes = {1.0};
@@ -43,21 +42,19 @@ double smallest_on(const SearchLine<Wrench>& line, const Wrench& b, double small
   return low + (high - low) * (-at_low / (at_high - at_low));
 }
 
-/// @tparam Wrench  of b, with a number of rows that is known when compiling or not
-template <class Wrench, class Columns>
-Eigen::VectorXd solve(const Columns& A, const Wrench& b, double small) {
-  using Square = Eigen::Matrix<double, Wrench::RowsAtCompileTime, Wrench::RowsAtCompileTime>;
-  Wrench r = b;
-  Eigen::VectorXd at = A.transpose() * r;
+}  // namespace
+
+Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double small) {
+  Eigen::VectorXd r = b, at = A.transpose() * r;
   int settled = 0;  // full steps inside one piece: the second corrects the rounding of the first
   for (int step = 0; step < kMostSteps && settled < 2; ++step) {
-    const Wrench slope = r - b + A * at.cwiseMax(0.0) / small;
+    const Eigen::VectorXd slope = r - b + A * at.cwiseMax(0.0) / small;
     if (slope.norm() <= kNoSlope * b.norm()) break;
-    Square hessian = Square::Identity(b.size(), b.size());
+    Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(b.size(), b.size());
     for (Eigen::Index i = 0; i < A.cols(); ++i)
       if (at[i] > 0.0) hessian.noalias() += A.col(i) * (A.col(i).transpose() / small);
-    const Wrench d = -hessian.ldlt().solve(slope);
-    const double part = smallest_on<Wrench>({r, d, at, A.transpose() * d}, b, small);
+    const Eigen::VectorXd d = -solve_symmetric(hessian, slope);
+    const double part = smallest_on({r, d, at, A.transpose() * d}, b, small);
     if (part == 0.0) break;
     r += part * d;
     const Eigen::VectorXd next = A.transpose() * r;
@@ -66,16 +63,6 @@ Eigen::VectorXd solve(const Columns& A, const Wrench& b, double small) {
     if (part == 1.0 && same_piece) ++settled;
   }
   return at.cwiseMax(0.0) / small;
-}
-
-}  // namespace
-
-Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b, double small) {
-  return solve(A, b, small);
-}
-
-Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double small) {
-  return solve(A, b, small);
 }
 
 }  // namespace mimicx::audit

@@ -334,6 +334,8 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
 
 }  // namespace
 
+Vector3d sole_point(const ContactPoint& point) { return point.p_B - point.radius * Vector3d::UnitY(); }
+
 std::string_view name_of_beta(int k) { return shape_components()[static_cast<std::size_t>(k)].name; }
 
 double Character::total_mass() const {

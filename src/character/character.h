@@ -35,7 +35,7 @@ inline constexpr int kFootPoints = 12, kPointsPerFoot = kFootPoints / 2;
 
 /// The place at which a contact point of a flat foot touches a level floor: the point itself or the lowest
 /// point of its sphere, body's frame, m.
-inline Vector3d sole_point(const ContactPoint& point) { return point.p_B - point.radius * Vector3d::UnitY(); }
+Vector3d sole_point(const ContactPoint& point);
 
 /// Shape of a body for collisions between bodies and for its inertia.
 struct Capsule {

@@ -1,8 +1,8 @@
 #include "generate/recogniser.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/decompositions.h"
 #include "nn/parameter_training.h"
 
 namespace mimicx::generate {
@@ -43,9 +43,8 @@ Gaussian gaussian_of(const nn::Matrix<float>& rows) {
 
 /// Square root of a symmetric matrix without negative eigenvalues; those of rounding count as 0.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-         solver.eigenvectors().transpose();
+  const auto [values, vectors] = symmetric_eigen(symmetric);
+  return vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * vectors.transpose();
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "import/body_fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
+
+#include "core/decompositions.h"
 
 namespace mimicx::import {
 namespace {
@@ -38,7 +40,7 @@ Betas minimise(const Residual& residual, double weight) {
         A(k, k) = 1.0;
         g[k] = 0.0;
       }
-    const Vector next = b - A.ldlt().solve(g);
+    const Vector next = b - solve_symmetric(A, g);
     for (int k = 0; k < kBetas; ++k) betas[k] = std::clamp(next[k], -kMaxBeta, kMaxBeta);
   }
   return betas;

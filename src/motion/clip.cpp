@@ -2,6 +2,10 @@
 
 namespace mimicx::motion {
 
+Vector3d eye_of(const Eigen::Matrix4d& extrinsics) {
+  return -extrinsics.topLeftCorner<3, 3>().transpose() * extrinsics.topRightCorner<3, 1>();
+}
+
 std::array<double, kBetas> Clip::usable_betas() const {
   return body_model == "mimicx" ? betas : std::array<double, kBetas>{};
 }

@@ -34,9 +34,7 @@ inline const Eigen::Matrix4d& camera_at(const PerFrame<Eigen::Matrix4d>& extrins
   return extrinsics[std::min(t, extrinsics.count() - 1)];
 }
 /// The place of a camera in the world, m.
-inline Vector3d eye_of(const Eigen::Matrix4d& extrinsics) {
-  return -extrinsics.topLeftCorner<3, 3>().transpose() * extrinsics.topRightCorner<3, 1>();
-}
+Vector3d eye_of(const Eigen::Matrix4d& extrinsics);
 
 struct Clip {
   std::string name;  ///< file name without folder and suffix

@@ -1,10 +1,10 @@
 #include "pipeline/cluster_map.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "core/decompositions.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "motion/clip_file.h"
@@ -113,11 +113,11 @@ ClusterMap map_of(const options::Clusters& clusters) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(options::kFeatures, options::kFeatures);
   for (const Scaled& p : points) covariance += (p - mean) * (p - mean).transpose();
   std::copy(mean.begin(), mean.end(), map.middle.begin());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  const SymmetricEigen spread = symmetric_eigen(covariance);
   for (int k = 0; k < 2; ++k) {
-    Eigen::VectorXd direction = solver.eigenvectors().col(options::kFeatures - 1 - k);
+    Eigen::VectorXd direction = spread.vectors.col(options::kFeatures - 1 - k);
     if (direction.sum() < 0.0) direction *= -1.0;  // the sign of a principal direction is arbitrary
-    const double all = covariance.trace(), own = solver.eigenvalues()[options::kFeatures - 1 - k];
+    const double all = covariance.trace(), own = spread.values[options::kFeatures - 1 - k];
     map.axes[static_cast<std::size_t>(k)] = {direction, all > 0.0 ? own / all : 0.0, words_of(direction)};
   }
   for (int c = 0; c < clusters.clusters.count(); ++c) {

@@ -74,6 +74,14 @@ std::string written(const nlohmann::json& value) {
 
 }  // namespace
 
+// Here, so that they are compiled once.
+Json::Json() = default;
+Json::Json(const Json&) = default;
+Json::Json(Json&&) noexcept = default;
+Json& Json::operator=(const Json&) = default;
+Json& Json::operator=(Json&&) noexcept = default;
+Json::~Json() = default;
+
 Json::Json(std::initializer_list<Json> values) {
   const auto pair_of = [](const Json& value) -> const std::vector<Json>* {
     const auto* elements = std::get_if<std::vector<Json>>(&value.value_);

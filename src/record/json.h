@@ -34,7 +34,12 @@ class Json {
  public:
   using Member = std::pair<std::string, Json>;
 
-  Json() = default;  ///< null
+  Json();  ///< null
+  Json(const Json&);
+  Json(Json&&) noexcept;
+  Json& operator=(const Json&);
+  Json& operator=(Json&&) noexcept;
+  ~Json();
   Json(std::nullptr_t) {}
   Json(const char* text) : value_(std::string(text)) {}
   Json(std::string text) : value_(std::move(text)) {}

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 
+#include "core/decompositions.h"
 #include "core/random.h"
 
 namespace mimicx::audit {
@@ -30,15 +30,14 @@ double best_by_enumeration(const Matrix6X& A, const Vector6d& b, double small) {
   const int n = static_cast<int>(A.cols());
   double best = 0.5 * b.squaredNorm();
   for (int set = 1; set < (1 << n); ++set) {
-    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(6 + n, n);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(6 + n);
-    right.head(6) = b;
-    for (int i = 0; i < n; ++i) {
-      if ((set >> i & 1) == 0) continue;
-      stacked.col(i).head(6) = A.col(i);
-      stacked(6 + i, i) = std::sqrt(small);
-    }
-    const Eigen::VectorXd x = stacked.completeOrthogonalDecomposition().solve(right);
+    std::vector<int> chosen;
+    for (int i = 0; i < n; ++i)
+      if ((set >> i & 1) != 0) chosen.push_back(i);
+    const Eigen::MatrixXd columns = A(Eigen::all, chosen);
+    Eigen::MatrixXd normal = columns.transpose() * columns;
+    normal.diagonal().array() += small;
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+    x(chosen) = solve_symmetric(normal, columns.transpose() * b);
     if (x.minCoeff() >= -1e-9) best = std::min(best, cost(A, b, small, x.cwiseMax(0.0)));
   }
   return best;

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "core/decompositions.h"
 
 namespace mimicx::control {
 namespace {
@@ -247,7 +248,7 @@ TEST(Riccati, MemoryAndGapsMatchTheNormalEquations) {
     c.tail(w).setZero();
   }
   add(z, c, last.V, last.v);
-  const Eigen::VectorXd expected = -H.ldlt().solve(g);
+  const Eigen::VectorXd expected = -solve_symmetric(H, g);
 
   ValueFunction value = last;
   Feedback law[2];

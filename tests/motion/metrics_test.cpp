@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 
+#include "core/decompositions.h"
 #include "motion/published_protocols.h"
 #include "motion/raised_clip.h"
 #include "motion/standing_samples.h"
@@ -241,9 +241,7 @@ double horn_error(const PerBody<Vector3d>& p, const PerBody<Vector3d>& g) {
   N << S.trace(), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0), 0, S(0, 0) - S(1, 1) - S(2, 2),
       S(0, 1) + S(1, 0), S(2, 0) + S(0, 2), 0, 0, -S(0, 0) + S(1, 1) - S(2, 2), S(1, 2) + S(2, 1), 0, 0, 0,
       -S(0, 0) - S(1, 1) + S(2, 2);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(
-      N.selfadjointView<Eigen::Upper>().toDenseMatrix());
-  const Eigen::Vector4d v = eigen.eigenvectors().col(3);
+  const Eigen::Vector4d v = symmetric_eigen(N.transpose()).vectors.col(3);
   const Quaterniond q(v[0], v[1], v[2], v[3]);
   double dot = 0.0, error = 0.0;
   for (std::size_t j = 0; j < kBodies; ++j) dot += (q * (p[j] - cp)).dot(g[j] - cg);

@@ -108,7 +108,7 @@ TEST(Plates, PointStraightUnderItsJointTouches) {
     const ContactPoint& point = s.model.contacts[n];
     Snapshot start = standing(character);
     start.q.fill(Quaterniond::Identity());
-    start.q[0] = Quaterniond::FromTwoVectors(point.p_B, -Vector3d::UnitZ());
+    start.q[0] = rotation_between(point.p_B, -Vector3d::UnitZ());
     start.p_root.setZero();
     const Vector3d joint = forward_kinematics(character, start.p_root, start.q).p_WB[point.body];
     start.p_root.z() = height + 0.5 * s.model.config.skin + point.p_B.norm() + point.radius - joint.z();

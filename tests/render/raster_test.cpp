@@ -40,7 +40,7 @@ TEST(Raster, CoversTheSamplesInsideTheTriangleAndNoOthers) {
           static_cast<double>(t[static_cast<std::size_t>(k)].y) / kSubSteps, 1.0;
     for (int y = 0; y < kGridHeight; ++y)
       for (int x = 0; x < kGridWidth; ++x) {
-        const Vector3d w = corners.fullPivLu().solve(Vector3d(x + 0.5, y + 0.5, 1.0));
+        const Vector3d w = corners.inverse() * Vector3d(x + 0.5, y + 0.5, 1.0);
         if (std::abs(w.minCoeff()) < 1e-7) continue;  // on an edge
         ++decided;
         ASSERT_EQ(counts[y * kGridWidth + x], faces_us && w.minCoeff() > 0.0 ? 1 : 0) << trial;

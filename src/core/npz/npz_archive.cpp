@@ -59,6 +59,10 @@ void Npz::set(const std::string& key, NpyArray array) {
   members_.emplace_back(key, std::move(array));
 }
 
+void Npz::set_unsupported(const std::string& key, UnsupportedArray why) {
+  unsupported_.emplace_back(key, std::move(why));
+}
+
 double number_at(const Npz& archive, const std::string& key) {
   const NpyArray& array = archive.at(key);
   if (array.type == NpyArray::Type::kText) raise(DataError(archive.path, key, "a number", "text"));

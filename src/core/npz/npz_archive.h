@@ -25,7 +25,7 @@ class Npz {
   /// Adds, or replaces in place.
   void set(const std::string& key, NpyArray array);
   const std::vector<std::pair<std::string, NpyArray>>& members() const { return members_; }
-  void set_unsupported(const std::string& key, UnsupportedArray why) { unsupported_.emplace_back(key, why); }
+  void set_unsupported(const std::string& key, UnsupportedArray why);
   const std::vector<std::pair<std::string, UnsupportedArray>>& unsupported() const { return unsupported_; }
   std::string path;  ///< of the file, for messages
 

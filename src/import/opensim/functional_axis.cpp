@@ -1,7 +1,6 @@
 #include "import/opensim/functional_axis.h"
 
-#include <Eigen/Eigenvalues>
-
+#include "core/decompositions.h"
 #include "motion/procrustes.h"
 
 namespace mimicx::import {
@@ -27,8 +26,8 @@ std::optional<SegmentPoses> segment_poses(const std::vector<Track>& markers) {
   if (markers.size() < 3) return std::nullopt;
   motion::Points rest = points_at(markers, 0);
   rest.colwise() -= Vector3d(rest.rowwise().mean());
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(rest * rest.transpose());
-  if (!(spread.eigenvalues()[1] > kLeastSpread * kLeastSpread)) return std::nullopt;
+  if (!(symmetric_eigen(rest * rest.transpose()).values[1] > kLeastSpread * kLeastSpread))
+    return std::nullopt;
   SegmentPoses poses;
   for (int t = 0; t < markers[0].count(); ++t) {
     const motion::Similarity moved = motion::nearest_similarity(rest, points_at(markers, t), true);
@@ -52,14 +51,14 @@ std::optional<JointLine> functional_axis(const std::vector<Track>& upper, const 
     normal += row.transpose() * row / frames;
     right += row.transpose() * (two->t[t] - one->t[t]) / frames;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(normal);
-  if (!(solver.eigenvalues()[1] > kLeastTurn * kLeastTurn)) return std::nullopt;
+  const SymmetricEigen modes = symmetric_eigen(normal);
+  if (!(modes.values[1] > kLeastTurn * kLeastTurn)) return std::nullopt;
   Vector6d point = Vector6d::Zero();  // the shortest solution without the axis' direction
   for (int k = 1; k < 6; ++k) {
-    const Vector6d direction = solver.eigenvectors().col(k);
-    point += direction.dot(right) / solver.eigenvalues()[k] * direction;
+    const Vector6d direction = modes.vectors.col(k);
+    point += direction.dot(right) / modes.values[k] * direction;
   }
-  const Vector6d axis = solver.eigenvectors().col(0);
+  const Vector6d axis = modes.vectors.col(0);
   JointLine line;
   for (int t = 0; t < frames; ++t) {
     line.point.push_back(0.5 *

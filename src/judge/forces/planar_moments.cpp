@@ -1,9 +1,9 @@
 #include "judge/forces/planar_moments.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "audit/load_sharing/load_sharing.h"
+#include "core/decompositions.h"
 #include "core/units.h"
 
 namespace mimicx::judge {
@@ -24,15 +24,17 @@ constexpr Segment kSegments[] = {{2, 3, 0.5, 0.0137}, {1, 2, 0.44, 0.0433}, {0, 
 
 /// Second derivative at place `at` of the cubic that fits kWindow points best, per frame².
 Vector3d curvature(const Vector3d* points, int at) {
-  Eigen::Matrix<double, kWindow, 4> powers;
-  Eigen::Matrix<double, kWindow, 3> values;
+  Eigen::MatrixXd powers(kWindow, 4);
   for (int i = 0; i < kWindow; ++i) {
     const double x = i - at;
     powers.row(i) << 1.0, x, x * x, x * x * x;
-    values.row(i) = points[i].transpose();
   }
-  const Eigen::Matrix<double, 4, 3> cubic = powers.householderQr().solve(values);
-  return 2.0 * cubic.row(2).transpose();
+  // The coefficients of the cubic are (PᵀP)⁻¹Pᵀ times the points.
+  const Eigen::VectorXd weight =
+      powers * solve_symmetric(powers.transpose() * powers, Eigen::Vector4d::UnitZ());
+  Vector3d curvature = Vector3d::Zero();
+  for (int i = 0; i < kWindow; ++i) curvature += 2.0 * weight[i] * points[i];
+  return curvature;
 }
 
 /// Central differences, one-sided at the ends.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "control/analytic/analytic.h"
+#include "core/decompositions.h"
 #include "physics/lanes.h"
 #include "physics/test_states.h"
 
@@ -18,7 +19,7 @@ Eigen::VectorXd residuals_for(const Model<double>& model, const ControlFrame& fr
   FrameDerivative<Pack<kLanes>> derivative;
   differentiate_frame(model, frame, false, *scratch, derivative);
   const Eigen::MatrixXd B = derivative.F.block(kRootVelocity, kTangent + kDofs, 3, kDofs).cast<double>();
-  return B.transpose() * (B * B.transpose()).ldlt().solve(wish);
+  return B.transpose() * solve_symmetric(B * B.transpose(), wish);
 }
 
 TEST(AnalyticExample, SolvedResidualsGiveThePelvisTheDesiredVelocity) {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <map>
 
+#include "core/decompositions.h"
 #include "motion/metrics.h"
 #include "synth/noise/noise_fixtures.h"
 #include "synth/noise/occlusion.h"
@@ -107,8 +107,7 @@ TEST(DetectKeypoints, OffsetsThatFollowTheViewAreALinearMapOfItsDirectionInTheLi
           -line * (d.keypoints.extrinsics[0] * d.poses[t].p_WB[kLeftWrist].homogeneous()).head<3>();
     }
   }
-  const Eigen::Matrix<double, 9, 9> normal = lhs.transpose() * lhs;
-  EXPECT_LT((lhs * normal.llt().solve(lhs.transpose() * right) - right).norm(), 1e-6);
+  EXPECT_LT((lhs * solve_symmetric(lhs.transpose() * lhs, lhs.transpose() * right) - right).norm(), 1e-6);
 }
 
 TEST(DetectKeypoints, WanderingAndTailsHaveTheirSizes) {
