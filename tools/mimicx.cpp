@@ -9,7 +9,7 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "core/build.h"
+#include "core/bits.h"
 #include "interrupts.h"
 #include "record/commit.h"
 #include "record/outputs.h"

@@ -13,7 +13,6 @@
 #include "control/linearisation.h"
 #include "control/plan.h"
 #include "core/bits.h"
-#include "core/build.h"
 #include "core/elementary.h"
 #include "core/npz/npz_archive.h"
 #include "core/random.h"

@@ -9,7 +9,7 @@
 //            3. Give the fall one heavy arm (character.mass[kLeftElbow] *= 10). Which numbers change?
 #include <cmath>
 
-#include "control/centroidal_momentum.h"
+#include "control/cost/centroidal_momentum.h"
 #include "energy.h"
 #include "physics/standing_state.h"
 #include "physics/step.h"

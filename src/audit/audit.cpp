@@ -81,18 +81,26 @@ double travel_share(const Kinematics& before, const Kinematics& after, const Vec
   return beyond.norm() / (0.5 / (rate * rate) * acceleration);
 }
 
-/// Push, pull, friction and air contact of the floor's forces between two poses, into the row.
-void judge_ground(const Character& c, const Scene& scene, double friction, const PerBody<Vector6d>& ground,
-                  const BodyPoses& before, const BodyPoses& after, AuditRow& row) {
-  for (int i = 0; i < kBodies; ++i) {
-    const Vector3d f = ground[i].tail<3>();
-    if (f.isZero()) continue;
+/// Push, pull and friction of the ground's forces, into the row.
+void judge_ground(const PerBody<Vector6d>& ground, double friction, AuditRow& row) {
+  for (const Vector6d& wrench : ground) {
+    const Vector3d f = wrench.tail<3>();
     row.normal += std::max(f.z(), 0.0);
     row.pull += std::max(-f.z(), 0.0);
     row.beyond_cone += std::max(f.head<2>().norm() - friction * std::max(f.z(), 0.0), 0.0);
-    if (std::min(height_of(c, before, i, scene), height_of(c, after, i, scene)) > kAir)
-      row.in_air += f.norm();
   }
+}
+
+/// Forces of the ground on bodies that are in the air in both poses, N.
+double force_in_air(const Character& c, const Scene& scene, const PerBody<Vector6d>& ground,
+                    const BodyPoses& before, const BodyPoses& after) {
+  double force = 0.0;
+  for (int i = 0; i < kBodies; ++i) {
+    const Vector3d f = ground[i].tail<3>();
+    if (f.isZero()) continue;
+    if (std::min(height_of(c, before, i, scene), height_of(c, after, i, scene)) > kAir) force += f.norm();
+  }
+  return force;
 }
 
 /// Torques compared with their bounds and with the required ones, and their power, into the row.
@@ -203,7 +211,8 @@ AuditRow step_row(const SubstepMotion& motion, const rl::tracking::Substep& step
   AuditRow row;
   row.root = shifted(required.root, s.state.p_root, before.center);
   judge_joints(c, s.forces, required.joint, next.omega, row);
-  judge_ground(c, motion.scene, o.friction, s.forces.ground, before.poses, before.poses, row);
+  judge_ground(s.forces.ground, o.friction, row);
+  row.in_air = force_in_air(c, motion.scene, s.forces.ground, before.poses, before.poses);
   return row;
 }
 
@@ -230,8 +239,8 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
     PerBody<Vector3d> speed;
     for (std::size_t i = 0; i < kBodies; ++i) speed[i] = motion.fps * log_map(a.q[i].conjugate() * b.q[i]);
     judge_joints(c, motion.forces[t], required.joint, speed, row);
-    judge_ground(c, motion.scene, simulation.friction, motion.forces[t].ground, before.poses, after.poses,
-                 row);
+    judge_ground(motion.forces[t].ground, simulation.friction, row);
+    row.in_air = force_in_air(c, motion.scene, motion.forces[t].ground, before.poses, after.poses);
     const Vector6d h_a = momentum_of(c, before, before.center), h_b = momentum_of(c, after, after.center);
     const double mass = c.total_mass();
     row.travel = travel_share(before, after, h_a.tail<3>() / mass, h_b.tail<3>() / mass, motion.fps,

@@ -14,7 +14,6 @@
 #include "core/containers.h"
 #include "physics/control_interval.h"
 #include "physics/lanes.h"
-#include "physics/pd_target.h"
 
 namespace mimicx::control {
 

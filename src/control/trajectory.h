@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "control/cost.h"
+#include "control/cost/cost.h"
 #include "control/differences.h"
 #include "control/riccati.h"
 

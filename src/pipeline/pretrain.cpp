@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/build.h"
+#include "core/bits.h"
 #include "core/npz/npz.h"
 #include "core/setting.h"
 #include "files/inputs.h"

@@ -1,9 +1,9 @@
 /// What is known of a reference, frame by frame: how certain its bodies are, and how feasible its momentum
-/// is. These are the factors of the plan's cost (control/cost.h).
+/// is. These are the factors of the plan's cost (control/cost/cost.h).
 #pragma once
 
 #include "audit/pose_needs.h"
-#include "control/cost.h"
+#include "control/cost/cost.h"
 #include "motion/reference.h"
 #include "plan/plan_settings.h"
 

@@ -18,7 +18,7 @@ namespace mimicx::record {
 
 struct Manifest {
   std::string version;  ///< of the program
-  std::string target;   ///< arithmetic it was built for (core/build.h)
+  std::string target;   ///< arithmetic it was built for (core/bits.h)
   std::uint64_t seed = 0;
   std::int64_t samples = 0;  ///< budget per sequence
   std::string method;        ///< how the motions are simulated: imitate, plan, options, printed or auto

@@ -3,7 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/build.h"
+#include "core/bits.h"
 #include "core/file.h"
 #include "run/run_outputs.h"
 

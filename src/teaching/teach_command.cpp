@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/build.h"
+#include "core/bits.h"
 #include "core/npz/npz.h"
 #include "core/number_text.h"
 #include "core/parallel.h"

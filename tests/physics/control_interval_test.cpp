@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 
-#include "physics/pd_target.h"
 #include "physics/test_states.h"
 
 namespace mimicx::physics {

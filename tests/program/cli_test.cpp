@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "core/build.h"
+#include "core/bits.h"
 #include "core/file.h"
 #include "core/npz/npz.h"
 #include "import/bvh.h"

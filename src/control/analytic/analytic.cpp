@@ -7,7 +7,7 @@
 #include "control/analytic/analytic_math.h"
 #include "control/analytic/analytic_step.h"
 #include "core/error.h"
-#include "physics/pd_target.h"
+#include "physics/control_interval.h"
 
 namespace mimicx::control {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "core/number_text.h"
+#include "physics/control_interval.h"
 #include "physics/lanes.h"
-#include "physics/pd_target.h"
 
 namespace mimicx::rl::tracking {
 namespace {

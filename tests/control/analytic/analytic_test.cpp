@@ -14,7 +14,6 @@
 #include "core/random.h"
 #include "physics/control_interval.h"
 #include "physics/lanes.h"
-#include "physics/pd_target.h"
 #include "physics/test_states.h"
 
 namespace mimicx::control {

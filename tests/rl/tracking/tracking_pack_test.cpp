@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "physics/control_interval.h"
 #include "physics/lanes.h"
-#include "physics/pd_target.h"
 #include "rl/tracking/tracking_fixture.h"
 
 namespace mimicx::rl::tracking {

@@ -1,12 +1,12 @@
 // Depth of the legs in the sides of boxes, its derivatives, and plans that keep out of them.
-#include "control/legs_in_boxes.h"
+#include "control/cost/legs_in_boxes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
-#include "control/cost.h"
+#include "control/cost/cost.h"
 #include "control/fixtures.h"
 #include "control/plan.h"
 

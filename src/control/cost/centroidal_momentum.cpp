@@ -1,4 +1,4 @@
-#include "control/centroidal_momentum.h"
+#include "control/cost/centroidal_momentum.h"
 
 #include "control/analytic/rotation_derivatives.h"
 #include "physics/lanes.h"

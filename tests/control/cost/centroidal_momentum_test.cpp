@@ -1,5 +1,5 @@
 // Centroidal momentum: derivatives, and what conserves it.
-#include "control/centroidal_momentum.h"
+#include "control/cost/centroidal_momentum.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The cost: derivatives, weights, and agreement of lanes with double.
-#include "control/cost.h"
+#include "control/cost/cost.h"
 
 #include <gtest/gtest.h>
 

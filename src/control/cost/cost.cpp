@@ -1,12 +1,12 @@
-#include "control/cost.h"
+#include "control/cost/cost.h"
 
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
-#include "control/centroidal_momentum.h"
-#include "control/legs_in_boxes.h"
-#include "control/sole_slip.h"
+#include "control/cost/centroidal_momentum.h"
+#include "control/cost/legs_in_boxes.h"
+#include "control/cost/sole_slip.h"
 #include "core/error.h"
 
 namespace mimicx::control {

@@ -20,7 +20,7 @@
 
 #include <Eigen/Core>
 
-#include "control/sole_slip.h"
+#include "control/cost/sole_slip.h"
 #include "control/system.h"
 #include "control/tangent.h"
 

@@ -1,12 +1,12 @@
 // Slip of the soles' points and its derivatives.
-#include "control/sole_slip.h"
+#include "control/cost/sole_slip.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
-#include "control/cost.h"
+#include "control/cost/cost.h"
 #include "control/fixtures.h"
 
 namespace mimicx::control {

@@ -1,4 +1,4 @@
-#include "control/sole_slip.h"
+#include "control/cost/sole_slip.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -1,4 +1,4 @@
-#include "control/legs_in_boxes.h"
+#include "control/cost/legs_in_boxes.h"
 
 #include <algorithm>
 
