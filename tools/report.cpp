@@ -36,15 +36,16 @@ std::filesystem::path clusters_of(const std::filesystem::path& options) {
   return folder / "clusters.json";
 }
 
-/// Tells how a true motion is read, or why it cannot be. @return whether it can
-bool told_truth(const std::filesystem::path& file) {
+/// Reads a true motion and tells how, or why it cannot be read.
+motion::Clip told_truth(const std::filesystem::path& file, bool& all_good) {
   try {
-    for (const std::string& line : import::notable_decisions(file.string(), import::read_motion(file)))
-      std::cerr << line << '\n';
-    return true;
+    motion::Clip truth = import::read_motion(file);
+    for (const std::string& line : import::notable_decisions(file.string(), truth)) std::cerr << line << '\n';
+    return truth;
   } catch (const std::exception& error) {
     std::cerr << file.string() << ": the truth cannot be shown: " << reason_of(error) << '\n';
-    return false;
+    all_good = false;
+    throw;
   }
 }
 
@@ -66,19 +67,17 @@ int report(const ReportArguments& a) {
   std::vector<std::filesystem::path> clusters;
   for (const std::string& set : a.options) clusters.push_back(clusters_of(set));
   options.map = clusters.empty() ? pipeline::draw_kept_map : pipeline::map_among(std::move(clusters));
-  if (!a.truth.empty()) options.truth = judge::named_motions(a.truth);
   bool all_good = true;
+  if (!a.truth.empty())
+    for (const auto& [name, file] : judge::named_motions(a.truth))
+      options.truth[name] = [&all_good, file = file] { return told_truth(file, all_good); };
   for (const record::SequenceEntry& entry : manifest.sequences) {
     if (!entry.output.empty() && !std::filesystem::exists(folder.root / entry.output)) {
       std::cerr << entry.name << ": its page is empty: expected " << (folder.root / entry.output).string()
                 << ", found no file\n";
       all_good = false;
     }
-    if (a.truth.empty()) continue;
-    if (const auto truth = options.truth.find(entry.name); truth != options.truth.end()) {
-      all_good = told_truth(truth->second) && all_good;
-      continue;
-    }
+    if (a.truth.empty() || options.truth.contains(entry.name)) continue;
     std::cerr << entry.name << ": " << a.truth.string() << " has no truth of that name\n";
     all_good = false;
   }

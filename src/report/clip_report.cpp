@@ -11,7 +11,6 @@
 #include "core/units.h"
 #include "files/archive_members.h"
 #include "files/recorded_forces.h"
-#include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 #include "record/feasibility_file.h"
@@ -93,7 +92,7 @@ struct ClipFiles {
 };
 
 ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntry& entry,
-                     const std::filesystem::path& truth, std::vector<std::string>& notes) {
+                     const TruthReader& read_truth, std::vector<std::string>& notes) {
   ClipFiles files;
   files.members = read_npz(folder.root / entry.output);
   files.cleaned = motion::clip_from(files.members, entry.name);
@@ -104,9 +103,9 @@ ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntr
   files.motions.push_back(seen(Who::kReference, motion::read_clip(folder.reference(entry.name)), entry.fps));
   files.motions.push_back(
       seen(Who::kCleaned, files.cleaned, entry.fps, files::recorded_forces(files.cleaned)));
-  if (truth.empty()) return files;
+  if (!read_truth) return files;
   try {
-    motion::Clip known = import::read_motion(truth);
+    motion::Clip known = read_truth();
     known.scene = files.cleaned.scene;
     files.motions.push_back(seen(Who::kTruth, known, entry.fps));
   } catch (const std::exception& error) {
@@ -253,10 +252,10 @@ std::vector<ReportStretch> stretches_of(const record::SequenceEntry& entry) {
 bool was_trained(const record::SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
 
 void add_motions(const record::RunFolder& folder, const record::SequenceEntry& entry,
-                 const std::vector<ReportMetric>& metrics, const std::filesystem::path& truth,
+                 const std::vector<ReportMetric>& metrics, const TruthReader& read_truth,
                  ReportedClip& made) {
   ReportClip& clip = made.clip;
-  const ClipFiles files = read_files(folder, entry, truth, clip.notes);
+  const ClipFiles files = read_files(folder, entry, read_truth, clip.notes);
   compare_with_truth(files, metrics, made.row, clip.notes);
   const Audits audits = audits_of(files, entry.fps);
   for (std::size_t k = 0; k < metrics.size(); ++k)
@@ -346,7 +345,7 @@ ReportRow report_row(const record::SequenceEntry& entry, const std::vector<Repor
 }
 
 ReportedClip report_clip(const record::RunFolder& folder, const record::SequenceEntry& entry,
-                         const std::vector<ReportMetric>& metrics, const std::filesystem::path& truth) {
+                         const std::vector<ReportMetric>& metrics, const TruthReader& read_truth) {
   const auto plain = [&] {
     ReportedClip made{report_row(entry, metrics), {}};
     made.clip.fps = entry.fps > 0.0 ? entry.fps : made.clip.fps;
@@ -361,7 +360,7 @@ ReportedClip report_clip(const record::RunFolder& folder, const record::Sequence
   ReportedClip made = plain();
   if (entry.output.empty()) return made;
   try {
-    add_motions(folder, entry, metrics, truth, made);
+    add_motions(folder, entry, metrics, read_truth, made);
     return made;
   } catch (const std::exception& error) {
     made = plain();

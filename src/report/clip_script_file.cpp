@@ -6,7 +6,6 @@
 #include "core/file.h"
 #include "record/json.h"
 #include "record/sequence_entry.h"
-#include "report/clip_report.h"
 #include "report/report_bodies.h"
 
 namespace mimicx::report {
@@ -54,12 +53,12 @@ void take_values(const std::string& line, ReportRow& row) {
 }  // namespace
 
 ReportRow write_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,
-                            const std::vector<ReportMetric>& metrics, const std::filesystem::path& truth) {
-  ReportedClip made = report_clip(folder, entry, metrics, truth);
+                            const std::vector<ReportMetric>& metrics, const TruthReader& read_truth) {
+  ReportedClip made = report_clip(folder, entry, metrics, read_truth);
   ReportBodies bodies;
   for (ReportMotion& motion : made.clip.motions) motion.body = bodies.take(motion.character);
   const std::string origin =
-      truth.empty() ? made_of(entry, metrics) + ' ' + values_in_line(made.row) : std::string("with a truth");
+      read_truth ? std::string("with a truth") : made_of(entry, metrics) + ' ' + values_in_line(made.row);
   const std::filesystem::path file = folder.report_clip(entry.name);
   make_folder(file.parent_path());
   write_file_atomically(

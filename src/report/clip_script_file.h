@@ -10,20 +10,18 @@
 /// thousand motions need not read any of them.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "record/run_folder.h"
 #include "record/sequence_entry.h"
-#include "report/report.h"
+#include "report/clip_report.h"
 
 namespace mimicx::report {
 
-/// Writes the file. @param truth  of the clip; empty: none @return the clip's row
+/// Writes the file. @return the clip's row
 ReportRow write_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,
-                            const std::vector<ReportMetric>& metrics,
-                            const std::filesystem::path& truth = {});
+                            const std::vector<ReportMetric>& metrics, const TruthReader& read_truth = {});
 
 /// The row of an existing file, if it was made from the same results and without a truth. Else none.
 std::optional<ReportRow> kept_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,

@@ -64,7 +64,7 @@ void write_report(const record::RunFolder& folder, const record::Manifest& manif
   if (options.map) report.map = options.map(folder, manifest, report.run);
   for (const record::SequenceEntry& entry : entries) {
     const auto truth = options.truth.find(entry.name);
-    const std::filesystem::path known = truth == options.truth.end() ? "" : truth->second;
+    const TruthReader known = truth == options.truth.end() ? nullptr : truth->second;
     if (beside && has_motion(entry)) {
       const auto kept = options.keep ? kept_clip_script(folder, entry, report.metrics) : std::nullopt;
       report.rows.push_back(kept ? *kept : write_clip_script(folder, entry, report.metrics, known));

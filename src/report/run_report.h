@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "record/manifest.h"
 #include "record/run_folder.h"
+#include "report/clip_report.h"
 
 namespace mimicx::report {
 
@@ -23,8 +23,8 @@ using MapDrawing = std::function<std::string(const record::RunFolder&, const rec
                                              std::vector<std::pair<std::string, std::string>>& facts)>;
 
 struct ReportOptions {
-  std::map<std::string, std::filesystem::path> truth = {};  ///< files of the truth, by the clips' names
-  MapDrawing map = {};                                      ///< empty: none
+  std::map<std::string, TruthReader> truth = {};  ///< by the clips' names
+  MapDrawing map = {};                            ///< empty: none
   bool times = false;  ///< also show wall-clock times, which differ from run to run
   bool keep = false;   ///< keep clip files that were made from the same results
 };

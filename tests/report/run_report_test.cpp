@@ -69,6 +69,10 @@ struct Folder {
   record::Manifest manifest;
 };
 
+TruthReader reader_of(const std::filesystem::path& file) {
+  return [file] { return motion::read_clip(file); };
+}
+
 nlohmann::json json_element(const std::string& page, const std::string& id) {
   const std::size_t name = page.find("id=\"" + id + "\""), begin = page.find('>', name) + 1;
   return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
@@ -145,7 +149,7 @@ TEST(RunReport, RemakesClipFilesThatAreOutdatedHaveATruthOrAreIncomplete) {
   EXPECT_NE(read_file(file).find("done anew"), std::string::npos);
   run.manifest.put(entry);
   ReportOptions truth;
-  truth.truth = {{"clip 7", run.run.reference("clip 7")}};
+  truth.truth = {{"clip 7", reader_of(run.run.reference("clip 7"))}};
   run.page(truth);
   EXPECT_NE(read_file(file).find("\"truth\""), std::string::npos);
   run.page(keep);
@@ -209,7 +213,7 @@ TEST(RunReport, MetricsAgainstTheTruthAreThoseOfEvaluate) {
   const std::filesystem::path truth = run.folder.path / "truth";
   Folder::write(truth / "clip 0.npz", raised(-0.002));
   ReportOptions options;
-  options.truth = {{"clip 0", truth / "clip 0.npz"}};
+  options.truth = {{"clip 0", reader_of(truth / "clip 0.npz")}};
   const std::string page = run.page(options);
   EXPECT_EQ(json_element(page, "clip-0")["motions"].back()["who"], "truth");
   for (const auto& [folder, column] : {std::pair{"inputs", 0}, std::pair{"motions", 2}}) {
@@ -259,7 +263,7 @@ TEST(RunReport, TruthOfAnotherLengthIsNotCompared) {
   other.trans.resize(other.rotations.size(), other.trans.back());
   Folder::write(truth / "clip 0.npz", other);
   ReportOptions options;
-  options.truth = {{"clip 0", truth / "clip 0.npz"}};
+  options.truth = {{"clip 0", reader_of(truth / "clip 0.npz")}};
   const std::string page = run.page(options);
   EXPECT_TRUE(values(page, "truth:MRPE")[2].is_null());
   EXPECT_TRUE(json_element(page, "clip-0")["notes"].back().get<std::string>().starts_with(
@@ -269,7 +273,7 @@ TEST(RunReport, TruthOfAnotherLengthIsNotCompared) {
 TEST(RunReport, ReportsAnUnreadableTruth) {
   Folder run(1);
   ReportOptions options;
-  options.truth = {{"clip 0", run.folder.path / "none.npz"}};
+  options.truth = {{"clip 0", reader_of(run.folder.path / "none.npz")}};
   const nlohmann::json clip = json_element(run.page(options), "clip-0");
   EXPECT_EQ(clip["motions"].size(), 3u);
   EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("the truth cannot be shown: "));
