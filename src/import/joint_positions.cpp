@@ -162,13 +162,26 @@ constexpr std::array<Limb, 4> kLimbs = {{{kLeftHip, kLeftKnee, kLeftAnkle},
                                          {kLeftShoulder, kLeftElbow, kLeftWrist},
                                          {kRightShoulder, kRightElbow, kRightWrist}}};
 
+/// From the middle of the hips to the middle of the shoulders.
+Vector3d hips_to_shoulders(const Positions& p) {
+  return 0.5 * (p[kLeftShoulder] + p[kRightShoulder]) - 0.5 * (p[kLeftHip] + p[kRightHip]);
+}
+
+/// `frame_of` the character's trunk in the rest pose, where it leans back.
+Quaterniond rest_frame(const Character& character) {
+  Rotations unrotated;
+  unrotated.fill(Quaterniond::Identity());
+  return frame_of(Vector3d::UnitX(),
+                  hips_to_shoulders(forward_kinematics(character, Vector3d::Zero(), unrotated).p_WB));
+}
+
 /// World rotations of the bodies; identity where all bones have the directions of the character's rest pose.
-Rotations rotations_of(const Character& character, const Positions& p) {
+/// @param rest  rest_frame of the character
+Rotations rotations_of(const Character& character, const Quaterniond& rest, const Positions& p) {
   Rotations q;
-  const Vector3d hips = 0.5 * (p[kLeftHip] + p[kRightHip]),
-                 shoulders = 0.5 * (p[kLeftShoulder] + p[kRightShoulder]);
-  q[kPelvis] = frame_of(p[kLeftHip] - p[kRightHip], shoulders - hips);
-  const Quaterniond chest = frame_of(p[kLeftShoulder] - p[kRightShoulder], shoulders - hips);
+  const Vector3d trunk = hips_to_shoulders(p);
+  q[kPelvis] = frame_of(p[kLeftHip] - p[kRightHip], trunk) * rest.conjugate();
+  const Quaterniond chest = frame_of(p[kLeftShoulder] - p[kRightShoulder], trunk) * rest.conjugate();
   for (int b = 1; b < kBodies; ++b) {
     q[b] = q[kParents[b]];
     if (b == kSpine1) q[b] = slerp(q[kPelvis], 1.0 / 3.0, chest);
@@ -232,6 +245,7 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   const PerFrame<Positions> frames = features ? positions_of_features(rows, path) : positions_of(rows);
   require_bones(frames, path);
   const Character character = make_character();
+  const Quaterniond rest = rest_frame(character);
   SkeletonMotion motion;
   motion.name = name;
   motion.path = path;
@@ -241,7 +255,7 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   motion.warnings = origin_warnings(frames);
   motion.joints = joints_of(character, frames, path);
   for (const Positions& p : frames) {
-    const Rotations q = rotations_of(character, p);
+    const Rotations q = rotations_of(character, rest, p);
     auto& translation = motion.translation.emplace_back();
     auto& rotation = motion.rotation.emplace_back();
     for (int b = 0; b < kBodies; ++b) {

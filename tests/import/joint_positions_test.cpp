@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 #include "core/npz/npy.h"
@@ -52,13 +53,28 @@ double mean_joint_distance(const motion::Clip& a, const motion::Clip& b) {
   return 1000.0 * (rotation_z(angle).toRotationMatrix() * from - to).colwise().norm().mean();
 }
 
+/// Mean angle between the rotations of a body in two motions, degrees.
+double mean_turn(const motion::Clip& a, const motion::Clip& b, int body) {
+  const auto p = motion::poses_of(a), q = motion::poses_of(b);
+  double sum = 0.0;
+  for (int t = 0; t < p.count(); ++t) sum += angle_between(p[t].q_WB[body], q[t].q_WB[body]) / kDegree;
+  return sum / p.count();
+}
+
+// Pelvis and chest once leant back by the angle at which the trunk does in the rest pose.
 TEST(JointPositions, RecoverTheMotionTheyCameFrom) {
+  double pelvis = 0.0, chest = 0.0;
   for (const char* kind : {"walk", "squat", "punch", "kick", "dance"}) {
     const motion::Clip exact = truth(kind), clip = read_positions(positions_of(exact));
     EXPECT_EQ(clip.fps, 20.0);
     ASSERT_EQ(clip.frames(), exact.frames());
     EXPECT_LT(mean_joint_distance(clip, exact), 25.0) << kind;
+    pelvis += mean_turn(clip, exact, kPelvis) / 5.0;
+    chest += mean_turn(clip, exact, kSpine3) / 5.0;
   }
+  std::printf("  measured: pelvis %.1f degrees off, chest %.1f\n", pelvis, chest);
+  EXPECT_LT(pelvis, 2.5);
+  EXPECT_LT(chest, 2.5);
 }
 
 TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
@@ -148,6 +164,43 @@ TEST(JointPositions, AnklesKeepTheirPlacesWhereTheKneeJointMoves) {
     }
   ASSERT_LT(deepest, 0.6);
   EXPECT_LT(farthest, 0.005);
+}
+
+/// Joints of another person, whose shoulders and arms lie farther in front of the spine.
+NpyArray with_shoulders_in_front(const motion::Clip& clip, double way) {
+  const NpyArray array = positions_of(clip);
+  Eigen::MatrixXd rows = to_matrix(array);
+  const Quaterniond to_y_up = rotation_to_z_up('y').conjugate();
+  const auto poses = motion::poses_of(clip);
+  for (int t = 0; t < poses.count(); ++t) {
+    const Vector3d forward = to_y_up * (poses[t].q_WB[kSpine3] * Vector3d(0.0, 0.0, way));
+    for (int b = kLeftCollar; b <= kRightWrist; ++b)
+      if (b != kHead) rows.row(t).segment<3>(3 * b) += forward.transpose();
+  }
+  NpyArray moved = from_matrix(rows);
+  moved.shape = array.shape;
+  return moved;
+}
+
+// The middle of our shoulders lies behind that of our hips: a chest that was upright by its joints leant
+// back.
+TEST(JointPositions, KeepTheLeanOfTheTrunk) {
+  const motion::Clip exact = truth("squat");
+  for (const double way : {0.0, 0.05}) {
+    const motion::Clip clip = read_positions(with_shoulders_in_front(exact, way));
+    const auto poses = motion::poses_of(clip), expected = motion::poses_of(exact);
+    for (int t = 0; t < poses.count(); ++t) {
+      const auto trunk = [](const BodyPoses& pose, const Vector3d& moved) {
+        return Vector3d(0.5 * (pose.p_WB[kLeftShoulder] + pose.p_WB[kRightShoulder]) -
+                        0.5 * (pose.p_WB[kLeftHip] + pose.p_WB[kRightHip]) + moved);
+      };
+      const Vector3d is = trunk(poses[t], Vector3d::Zero()),
+                     was = trunk(expected[t], expected[t].q_WB[kSpine3] * Vector3d(0.0, 0.0, way));
+      EXPECT_LT(std::abs(angle_between(is, Vector3d::UnitZ()) - angle_between(was, Vector3d::UnitZ())),
+                2.0 * kDegree)
+          << way << ", frame " << t;
+    }
+  }
 }
 
 /// Largest angle of a sole that stands with the floor, degrees.

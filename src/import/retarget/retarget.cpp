@@ -306,6 +306,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   Calibration calibration = calibrate(character, source.neutral, source.turns, source.map);
   const Twists twists = measure_twists(character, calibration, source.frames);
   calibration = calibrate(character, source.neutral, source.turns, source.map, twists);
+  if (motion.positions_only) calibration.p_JS = shoulders_in_chest(source.frames);  // their rest pose is ours
   const auto solve_all = [&] {
     solve(character, calibration, source.frames, report.leg_ratio, clip);
     if (motion.positions_only) level_rolls(character, clip);

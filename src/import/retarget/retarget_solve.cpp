@@ -103,6 +103,14 @@ void solve_trunk(const Character& character, const Vector3d& direction, JointRot
 
 }  // namespace
 
+Vector3d shoulders_in_chest(const PerFrame<Landmarks>& poses) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Landmarks& pose : poses)
+    mean += pose.q[kSpine3].conjugate() * (pose.between(kLeftShoulder, kRightShoulder) - pose.p[kSpine3]) /
+            static_cast<double>(poses.size());
+  return mean;
+}
+
 Calibration calibrate(const Character& character, const NeutralPoses& neutral, const PerBody<bool>& turns,
                       const JointMap& map, const Twists& twists) {
   Calibration out;
@@ -124,10 +132,7 @@ Calibration calibrate(const Character& character, const NeutralPoses& neutral, c
   take_means(neutral.body, all);
   if (!neutral.left_foot.empty()) take_means(neutral.left_foot, {kLeftAnkle, kLeftFoot});
   if (!neutral.right_foot.empty()) take_means(neutral.right_foot, {kRightAnkle, kRightFoot});
-  for (const Landmarks& pose : neutral.body)
-    out.p_JS += pose.q[kSpine3].conjugate() *
-                (pose.between(kLeftShoulder, kRightShoulder) - pose.p[kSpine3]) /
-                static_cast<double>(neutral.body.size());
+  out.p_JS = shoulders_in_chest(neutral.body);
   return out;
 }
 

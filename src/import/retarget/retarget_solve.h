@@ -49,6 +49,9 @@ struct NeutralPoses {
 Calibration calibrate(const Character& character, const NeutralPoses& neutral, const PerBody<bool>& turns,
                       const JointMap& map, const Twists& twists = {});
 
+/// Middle of the shoulders in the chest joint's frame, mean over the poses, m.
+Vector3d shoulders_in_chest(const PerFrame<Landmarks>& poses);
+
 /// The twists, within ±90°, for which the hinges of knees and elbows fit the motion of the lower bones best.
 /// Limbs that hardly bend get twists near 0. Resolution: a tenth of a degree.
 Twists measure_twists(const Character& character, const Calibration& calibration,
