@@ -13,7 +13,7 @@
 #include "energy.h"
 #include "physics/standing_state.h"
 #include "physics/step.h"
-#include "picture.h"
+#include "plot.h"
 
 using namespace mimicx;
 

@@ -11,7 +11,7 @@
 
 #include "physics/standing_state.h"
 #include "physics/step.h"
-#include "picture.h"
+#include "plot.h"
 #include "trees/tree_dynamics.h"
 
 using namespace mimicx;

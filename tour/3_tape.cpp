@@ -14,7 +14,7 @@
 #include "nn/gradient.h"
 #include "nn/mlp.h"
 #include "nn/ops.h"
-#include "picture.h"
+#include "plot.h"
 
 using namespace mimicx;
 using nn::Tape;

@@ -11,7 +11,7 @@
 
 #include <Eigen/Dense>
 
-#include "picture.h"
+#include "plot.h"
 #include "rl/task_environment.h"
 #include "rl/trainer.h"
 

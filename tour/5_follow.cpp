@@ -13,7 +13,7 @@
 #include <cstdlib>
 
 #include "motions.h"
-#include "picture.h"
+#include "plot.h"
 #include "rl/tracking/tracking_environment.h"
 #include "rl/trainer.h"
 

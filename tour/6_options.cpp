@@ -10,12 +10,12 @@
 #include <algorithm>
 
 #include "motions.h"
-#include "picture.h"
 #include "pipeline/options/features.h"
 #include "pipeline/options/kmeans.h"
 #include "pipeline/options/option_rewards.h"
 #include "pipeline/options/option_set.h"
 #include "pipeline/options/selector.h"
+#include "plot.h"
 
 using namespace mimicx;
 using namespace mimicx::pipeline::options;

@@ -7,8 +7,8 @@
 //            2. Why does the value of the last frame of a stretch come from the next option's critic?
 //            3. Start PPO on the same motion from nothing ("walk", 4 in 5_follow): what does it reach?
 #include "motions.h"
-#include "picture.h"
 #include "pipeline/options/arrangement.h"
+#include "plot.h"
 #include "program/configurations.h"
 #include "rl/tracking/tracking_environment.h"
 #include "rl/trainer.h"

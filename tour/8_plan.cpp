@@ -11,7 +11,7 @@
 
 #include "control/plan.h"
 #include "motions.h"
-#include "picture.h"
+#include "plot.h"
 
 using namespace mimicx;
 using rl::tracking::TrackingRollout;
