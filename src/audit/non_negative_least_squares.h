@@ -3,8 +3,8 @@
 /// Finds the forces x ≥ 0 along the columns of A that come closest to b: a wrench of six numbers, or a wrench
 /// and torques. A small weight ε on the forces makes them unique:
 ///     minimise ½‖A x − b‖² + ½ε‖x‖²  over x ≥ 0.
-/// Its conditions (Karush, Kuhn, Tucker) say x = max(0, Aᵀr)/ε with r = b − A x. So only r has
-/// to be found, for any number of columns. It minimises
+/// Its conditions (Karush, Kuhn, Tucker) say x = max(0, Aᵀr)/ε with r = b − A x. So only r has to be found,
+/// for any number of columns. It minimises
 ///     φ(r) = ½‖r‖² − bᵀr + ‖max(0, Aᵀr)‖²/2ε
 /// φ is strictly convex and quadratic between the planes aᵢᵀr = 0; Newton steps with an exact line search
 /// over these pieces reach its minimum in finitely many steps (D. P. Bertsekas, "Nonlinear Programming"

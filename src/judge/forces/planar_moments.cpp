@@ -32,9 +32,9 @@ Vector3d curvature(const Vector3d* points, int at) {
   // The coefficients of the cubic are (PᵀP)⁻¹Pᵀ times the points.
   const Eigen::VectorXd weight =
       powers * solve_symmetric(powers.transpose() * powers, Eigen::Vector4d::UnitZ());
-  Vector3d curvature = Vector3d::Zero();
-  for (int i = 0; i < kWindow; ++i) curvature += 2.0 * weight[i] * points[i];
-  return curvature;
+  Vector3d bend = Vector3d::Zero();
+  for (int i = 0; i < kWindow; ++i) bend += 2.0 * weight[i] * points[i];
+  return bend;
 }
 
 /// Central differences, one-sided at the ends.
