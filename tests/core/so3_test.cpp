@@ -83,6 +83,7 @@ TEST(So3, AngleBetweenMatchesRotationBetween) {
     EXPECT_LT((turn * a.normalized() - b.normalized()).norm(), 1e-12);
     EXPECT_NEAR(log_map(turn).norm(), angle_between(a, b), 1e-12);
     EXPECT_NEAR(log_map(turn).dot(a), 0.0, 1e-12);  // no twist about the start
+    EXPECT_EQ(turn.coeffs(), Quaterniond::FromTwoVectors(a, b).coeffs()) << "what Eigen makes of it";
     const Quaterniond half = rotation_between(a, -2.0 * a);
     EXPECT_LT((half * a + a).norm(), 1e-6 * a.norm());
   }
