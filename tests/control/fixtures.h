@@ -1,6 +1,7 @@
 /// References for planning: synthetic motions, prepared as in the pipeline, and random states.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "control/system.h"
@@ -39,6 +40,20 @@ Tangent<T> random_tangent(Random& random, double size) {
   Tangent<T> delta;
   for (T& x : delta) x = T(size * random.normal());
   return delta;
+}
+
+/// A state of which every coordinate is moved by about `size`.
+inline State<double> moved_at_random(State<double> x, std::uint64_t seed, double size) {
+  Random random(seed);
+  retract(x, random_tangent<double>(random, size));
+  return x;
+}
+
+/// Kinematics of a state by the system's exact model.
+inline std::unique_ptr<Data<double>> exact_kinematics(const System& system, const State<double>& x) {
+  auto d = std::make_unique<Data<double>>();
+  update_kinematics(system.exact_model, x, *d);
+  return d;
 }
 
 /// A state that is moved along coordinate k.

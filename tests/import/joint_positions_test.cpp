@@ -9,6 +9,7 @@
 #include "core/npz/npy.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "import/landmarks.h"
 #include "import/motion_file.h"
 #include "import/positions.h"
 #include "motion/made_motions.h"
@@ -132,6 +133,13 @@ TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
     }
 }
 
+/// An array of these rows with the shape of another one.
+NpyArray shaped_as(const NpyArray& other, const Eigen::MatrixXd& rows) {
+  NpyArray array = from_matrix(rows);
+  array.shape = other.shape;
+  return array;
+}
+
 /// The clip's joints, as of a person whose knee joint moves up the thigh as it bends, by up to 3 cm.
 NpyArray with_moving_knees(const motion::Clip& clip) {
   const NpyArray array = positions_of(clip);
@@ -144,9 +152,7 @@ NpyArray with_moving_knees(const motion::Clip& clip) {
       const double bend = angle_between(thigh, shank);
       rows.row(t).segment<3>(3 * knee) -= 0.015 * (1.0 - std::cos(bend)) * thigh.normalized();
     }
-  NpyArray moved = from_matrix(rows);
-  moved.shape = array.shape;
-  return moved;
+  return shaped_as(array, rows);
 }
 
 // Bones of one length that keep the directions of such a leg end 1 to 2 cm beside its ankle.
@@ -177,9 +183,7 @@ NpyArray with_shoulders_in_front(const motion::Clip& clip, double way) {
     for (int b = kLeftCollar; b <= kRightWrist; ++b)
       if (b != kHead) rows.row(t).segment<3>(3 * b) += forward.transpose();
   }
-  NpyArray moved = from_matrix(rows);
-  moved.shape = array.shape;
-  return moved;
+  return shaped_as(array, rows);
 }
 
 // The middle of our shoulders lies behind that of our hips: a chest that was upright by its joints leant
@@ -188,14 +192,12 @@ TEST(JointPositions, KeepTheLeanOfTheTrunk) {
   const motion::Clip exact = truth("squat");
   for (const double way : {0.0, 0.05}) {
     const motion::Clip clip = read_positions(with_shoulders_in_front(exact, way));
-    const auto poses = motion::poses_of(clip), expected = motion::poses_of(exact);
+    const auto poses = landmarks_of(motion::poses_of(clip)), expected = landmarks_of(motion::poses_of(exact));
     for (int t = 0; t < poses.count(); ++t) {
-      const auto trunk = [](const BodyPoses& pose, const Vector3d& moved) {
-        return Vector3d(0.5 * (pose.p_WB[kLeftShoulder] + pose.p_WB[kRightShoulder]) -
-                        0.5 * (pose.p_WB[kLeftHip] + pose.p_WB[kRightHip]) + moved);
-      };
-      const Vector3d is = trunk(poses[t], Vector3d::Zero()),
-                     was = trunk(expected[t], expected[t].q_WB[kSpine3] * Vector3d(0.0, 0.0, way));
+      const Landmarks& pose = expected[t];
+      const Vector3d is = poses[t].trunk(), was = pose.between(kLeftShoulder, kRightShoulder) -
+                                                  pose.between(kLeftHip, kRightHip) +
+                                                  pose.q[kSpine3] * Vector3d(0.0, 0.0, way);
       EXPECT_LT(std::abs(angle_between(is, Vector3d::UnitZ()) - angle_between(was, Vector3d::UnitZ())),
                 2.0 * kDegree)
           << way << ", frame " << t;

@@ -12,21 +12,13 @@ namespace {
 
 struct MovingBody {
   System system = system_of(synthetic_reference("jump", 501, 12));
-  State<double> x = system.at(5);
+  State<double> x = moved_at_random(system.at(5), 44, 0.3);
 
-  MovingBody() {
-    Random random(44);
-    retract(x, random_tangent<double>(random, 0.3));
-  }
   CentroidalMomentum<double> momentum(const State<double>& state) const {
-    const auto d = std::make_unique<Data<double>>();
-    update_kinematics(system.exact_model, state, *d);
-    return centroidal_momentum(system.exact_model, *d);
+    return centroidal_momentum(system.exact_model, *exact_kinematics(system, state));
   }
   CentroidalJacobian jacobian() const {
-    const auto d = std::make_unique<Data<double>>();
-    update_kinematics(system.exact_model, x, *d);
-    return centroidal_jacobian(system.exact_model, *d);
+    return centroidal_jacobian(system.exact_model, *exact_kinematics(system, x));
   }
 };
 

@@ -15,12 +15,8 @@ namespace {
 struct WalkingScene {
   System system = system_of(synthetic_reference("walk", 501, 12));
   Cost cost = make_cost(system, all_terms(), factors());
-  State<double> x = system.at(5);
+  State<double> x = moved_at_random(system.at(5), 44, 0.05);
 
-  WalkingScene() {
-    Random random(44);
-    retract(x, random_tangent<double>(random, 0.05));
-  }
   static CostWeights all_terms() {
     CostWeights weights;
     weights.com_velocity = 30.0;

@@ -25,16 +25,12 @@ struct WalkThroughBoxes {
                        {middle - Eigen::Vector2d(0.3, 0.2), -1.0, {0.2, 0.3}, 0.4, stiffness}}};
     const System flat = system_of(reference);
     system = make_system(reference.character, {}, flat.reference, reference.fps, scene);
-    x = system.at(15);
-    Random random(46);
-    retract(x, random_tangent<double>(random, 0.2));
+    x = moved_at_random(system.at(15), 46, 0.2);
   }
 };
 
 SideDepths depths_of(const System& system, const State<double>& x) {
-  const auto d = std::make_unique<Data<double>>();
-  update_kinematics(system.exact_model, x, *d);
-  return side_depths(system, *d);
+  return side_depths(system, *exact_kinematics(system, x));
 }
 double deepest(const System& system, const State<double>& x) { return depths_of(system, x).depth.maxCoeff(); }
 

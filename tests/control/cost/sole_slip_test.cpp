@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "control/cost/cost.h"
 #include "control/fixtures.h"
@@ -16,18 +15,12 @@ const Landings kInTheAir{};  ///< a goal whose soles stay in the air
 
 Array<Vec3<double>, kFootPoints> slip_of(const System& system, const State<double>& x,
                                          const Landings& goal = kInTheAir) {
-  const auto d = std::make_unique<Data<double>>();
-  update_kinematics(system.exact_model, x, *d);
-  return sole_slip(system, goal, *d);
+  return sole_slip(system, goal, *exact_kinematics(system, x));
 }
 
 struct TurningWalk {
   System system = system_of(synthetic_reference("walk_turn", 501, 12));
-  State<double> x = system.at(5);
-  TurningWalk() {
-    Random random(45);
-    retract(x, random_tangent<double>(random, 0.3));
-  }
+  State<double> x = moved_at_random(system.at(5), 45, 0.3);
   Array<Vector3d, kFootPoints> soles(const State<double>& at) const {
     const BodyPoses poses = poses_of(system, at);
     Array<Vector3d, kFootPoints> p;
@@ -41,14 +34,12 @@ struct TurningWalk {
 
 TEST(SoleSlip, JacobianMatchesDifferences) {
   TurningWalk s;
-  const auto d = std::make_unique<Data<double>>();
   constexpr double kStep = 1e-6;
   Landings goal{};
   for (int k = 0; k < kFootPoints; k += 4) goal[k] = {0.11 * k, {0.05 * k, -0.02 * k}};
   for (int point = 0; point < kFootPoints; ++point) {
     s.put(point, 0.001 + 0.003 * (point % 3));
-    update_kinematics(s.system.exact_model, s.x, *d);
-    const SoleSlipJacobian J = sole_slip_jacobian(s.system, goal, *d);
+    const SoleSlipJacobian J = sole_slip_jacobian(s.system, goal, *exact_kinematics(s.system, s.x));
     for (int k = 0; k < kTangent; ++k) {
       const auto a = slip_of(s.system, moved(s.x, k, kStep), goal),
                  b = slip_of(s.system, moved(s.x, k, -kStep), goal);
@@ -74,11 +65,11 @@ TEST(SoleSlip, HeightsAreOverThePlateUnderThePoint) {
   const auto low_slip = slip_of(s.system, s.x), high_slip = slip_of(raised, high);
   for (int i = 0; i < kFootPoints; ++i)
     EXPECT_LT((to_eigen(low_slip[i]) - to_eigen(high_slip[i])).norm(), 1e-12) << i;
-  const auto d = std::make_unique<Data<double>>();
-  update_kinematics(s.system.exact_model, s.x, *d);
-  const SoleSlipJacobian J = sole_slip_jacobian(s.system, kInTheAir, *d);
-  update_kinematics(raised.exact_model, high, *d);
-  EXPECT_LT((sole_slip_jacobian(raised, kInTheAir, *d) - J).norm(), 1e-9 * J.norm());
+  const auto jacobian = [](const System& system, const State<double>& x) {
+    return sole_slip_jacobian(system, kInTheAir, *exact_kinematics(system, x));
+  };
+  const SoleSlipJacobian J = jacobian(s.system, s.x);
+  EXPECT_LT((jacobian(raised, high) - J).norm(), 1e-9 * J.norm());
 }
 
 // The rate of change of the positions of points below the floor, by a small step of the pose along its
@@ -157,12 +148,8 @@ List<Landing> landing(double step) {
     goal[t].p_root.z += (t < 5 ? 1.0 : 0.0) - soles[lowest].z();
     goal[t].p_root.x += step * std::min(t, 7);
   }
-  const auto d = std::make_unique<Data<double>>();
   List<SolePlaces> places;
-  for (const State<double>& x : goal) {
-    update_kinematics(s.system.exact_model, x, *d);
-    places.push_back(sole_places(s.system, *d));
-  }
+  for (const State<double>& x : goal) places.push_back(sole_places(s.system, *exact_kinematics(s.system, x)));
   List<Landing> of_lowest;
   for (const Landings& goal_points : landings(s.system, places)) of_lowest.push_back(goal_points[lowest]);
   return of_lowest;
