@@ -14,4 +14,8 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd&
   return A.ldlt().solve(b);
 }
 
+Eigen::MatrixXd inverse_symmetric(const Eigen::MatrixXd& A) {
+  return A.ldlt().solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+}
+
 }  // namespace mimicx

@@ -19,4 +19,8 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 /// @param A  symmetric, positive or negative semidefinite
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+/// A⁻¹, by LDLᵀ.
+/// @param A  symmetric, positive or negative definite
+Eigen::MatrixXd inverse_symmetric(const Eigen::MatrixXd& A);
+
 }  // namespace mimicx

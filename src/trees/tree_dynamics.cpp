@@ -1,7 +1,6 @@
 #include "trees/tree_dynamics.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "core/decompositions.h"
 
 namespace mimicx::trees {
 namespace {
@@ -92,7 +91,7 @@ MatrixXd mass_matrix(const Tree& tree, const TreeState& state) {
 VectorXd dense_forward_dynamics(const Tree& tree, const TreeState& state, const VectorXd& tau,
                                 const TreeForces& external) {
   const VectorXd C = inverse_dynamics(tree, state, VectorXd::Zero(tree.dofs()), external);
-  return mass_matrix(tree, state).llt().solve(tau - C);
+  return solve_symmetric(mass_matrix(tree, state), tau - C);
 }
 
 VectorXd forward_dynamics(const Tree& tree, const TreeState& state, const VectorXd& tau,
@@ -112,8 +111,8 @@ VectorXd forward_dynamics(const Tree& tree, const TreeState& state, const Vector
   for (int i = n - 1; i >= 0; --i) {
     const TreeBody& body = tree.body[i];
     U[i] = IA[i] * body.S;
-    D_inv[i] =
-        (body.S.transpose() * U[i] + body.armature * MatrixXd::Identity(body.dofs(), body.dofs())).inverse();
+    D_inv[i] = inverse_symmetric(body.S.transpose() * U[i] +
+                                 body.armature * MatrixXd::Identity(body.dofs(), body.dofs()));
     u[i] = tau.segment(body.dof, body.dofs()) - body.S.transpose() * pA[i];
     if (body.parent < 0) continue;
     const Matrix6d Ia = IA[i] - U[i] * D_inv[i] * U[i].transpose();
