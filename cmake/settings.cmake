@@ -208,6 +208,20 @@ function(mimicx_add_suites target)
   endforeach()
 endfunction()
 
+# mimicx_rooms_of(OUT TARGETS...): these static libraries and all that they link.
+function(mimicx_rooms_of out)
+  set(rooms)
+  foreach(target ${ARGN})
+    get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+    list(FILTER links INCLUDE REGEX "^mimicx_")
+    list(REMOVE_ITEM links mimicx_settings mimicx_mujoco)
+    mimicx_rooms_of(more ${links})
+    list(APPEND rooms ${target} ${more})
+  endforeach()
+  list(REMOVE_DUPLICATES rooms)
+  set(${out} ${rooms} PARENT_SCOPE)
+endfunction()
+
 # mimicx_test(NAME [FOLDERS...] [EXCEPT...] DEPENDS LIBS...): one GoogleTest program per room under test.
 function(mimicx_test name)
   cmake_parse_arguments(ARG "" "" "FOLDERS;EXCEPT;DEPENDS" ${ARGN})
@@ -215,6 +229,11 @@ function(mimicx_test name)
   add_executable(test_${name} ${sources})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main)
+  # Of an inline function the linker takes the first copy: that of the rooms, which are compiled for speed. Tests would
+  # take a tenth longer with their own.
+  mimicx_rooms_of(rooms ${ARG_DEPENDS})
+  list(TRANSFORM rooms REPLACE ".+" "$<TARGET_FILE:\\0>")
+  target_link_options(test_${name} PRIVATE LINKER:--whole-archive ${rooms} LINKER:--no-whole-archive)
   target_compile_definitions(test_${name} PRIVATE
     MIMICX_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MIMICX_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   mimicx_compile(test_${name} test)
