@@ -128,6 +128,12 @@ const Json& Json::at(const std::string& name) const {
   return *there;
 }
 
+const Json& Json::at(std::size_t index) const {
+  const std::vector<Json>& all = elements();
+  if (index >= all.size()) refuse("no element " + std::to_string(index));
+  return all[index];
+}
+
 Json Json::value(const std::string& name, const Json& otherwise) const {
   const Json* there = find(name);
   return there == nullptr ? otherwise : *there;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <stdexcept>
@@ -81,6 +82,8 @@ class Json {
   Json& operator[](const char* name) { return (*this)[std::string(name)]; }
   /// @throws JsonError if it is missing
   const Json& at(const std::string& name) const;
+  /// The element of an array. @throws JsonError if there are fewer, or this is none
+  const Json& at(std::size_t index) const;
   /// The member, or `otherwise` if it is missing.
   Json value(const std::string& name, const Json& otherwise) const;
   /// @throws JsonError if this is no object, or no array

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 #include "motion/standing_clip.h"
+#include "record/json.h"
 
 namespace mimicx::judge {
 namespace {
@@ -167,8 +167,8 @@ TEST_F(Evaluate, ComparesFoldersOverTheirCommonMotions) {
   EXPECT_NEAR(mean_of(comparison.evaluations[0], motion::metric_definitions().front()), 20.0, 1e-6);
   EXPECT_NEAR(mean_of(comparison.evaluations[1], motion::metric_definitions().front()), 0.0, 1e-6);
   EXPECT_NE(format_comparison(comparison).find("means over 2 motions"), std::string::npos);
-  const auto json = nlohmann::json::parse(comparison_json(comparison));
-  EXPECT_EQ(json.at("motions").size(), 2u);
+  const auto json = record::Json::parse(comparison_json(comparison));
+  EXPECT_EQ(json.at("motions").elements().size(), 2u);
   EXPECT_NEAR(json.at("rows").at(0).at("mean").at("MRPE").get<double>(), 20.0, 1e-6);
 }
 
@@ -179,14 +179,14 @@ TEST_F(Evaluate, RejectsFoldersWithoutMotions) {
 
 TEST_F(Evaluate, JsonHasEveryMetricWithItsDefinition) {
   add_pair("a", 0.010);
-  const auto json = nlohmann::json::parse(evaluation_json(evaluate_folders(truth, motions)));
-  EXPECT_EQ(json["definitions"].size(), motion::metric_definitions().size());
+  const auto json = record::Json::parse(evaluation_json(evaluate_folders(truth, motions)));
+  EXPECT_EQ(json.at("definitions").items().size(), motion::metric_definitions().size());
   for (const auto& d : motion::metric_definitions()) {
-    EXPECT_FALSE(json["definitions"][d.name]["definition"].get<std::string>().empty());
-    EXPECT_TRUE(json["motions"][0]["metrics"].contains(d.name));
-    EXPECT_TRUE(json["mean"].contains(d.name));
+    EXPECT_FALSE(json.at("definitions").at(d.name).at("definition").get<std::string>().empty());
+    EXPECT_TRUE(json.at("motions").at(0).at("metrics").contains(d.name));
+    EXPECT_TRUE(json.at("mean").contains(d.name));
   }
-  EXPECT_NEAR(json["mean"]["MRPE"].get<double>(), 10.0, 1e-6);
+  EXPECT_NEAR(json.at("mean").at("MRPE").get<double>(), 10.0, 1e-6);
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/random.h"
+#include "record/json.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -91,11 +90,12 @@ TEST(ClusterMap, RejectsFewerThanThreeMotions) {
 TEST(ClusterMap, JsonHasTrainingMotionsByNameAndClipsByRow) {
   ClusterMap map = map_of(two_clusters());
   map.clips.push_back({{0.5, -0.25}, 1, "", 7});
-  const auto json = nlohmann::json::parse(map_json(map));
-  EXPECT_EQ(json["trained"].size(), 40u);
-  EXPECT_EQ(json["trained"][25][3], "fast5");
-  EXPECT_EQ(json["clips"], nlohmann::json::parse("[[0.5, -0.25, 1, 7]]"));
-  EXPECT_EQ(json["axes"][0]["words"], "more speed across the floor");
+  const auto json = record::Json::parse(map_json(map));
+  EXPECT_EQ(json.at("trained").elements().size(), 40u);
+  EXPECT_EQ(json.at("trained").at(25).at(3).get<std::string>(), "fast5");
+  EXPECT_EQ(json.at("clips").get<std::vector<std::vector<double>>>(),
+            (std::vector<std::vector<double>>{{0.5, -0.25, 1, 7}}));
+  EXPECT_EQ(json.at("axes").at(0).at("words").get<std::string>(), "more speed across the floor");
 }
 
 }  // namespace

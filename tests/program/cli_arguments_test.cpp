@@ -1,9 +1,9 @@
 // The command line itself: help, numbers, mistyped words, what is said of a wrong value.
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "core/file.h"
 #include "program/cli.h"
+#include "record/json.h"
 
 namespace mimicx::program {
 namespace {
@@ -50,8 +50,8 @@ TEST_F(Cli, AcceptsThousandsAndMillionsSuffixes) {
            {"3M", 3'000'000}, {"500k", 500'000}, {"1.5M", 1'500'000}, {"2e4", 20'000}, {"7", 7}}) {
     const std::string out = path(text);
     EXPECT_EQ(mimicx("imitate " + path("none.npz") + " --samples " + text + " --out " + out).status, 1);
-    const auto manifest = nlohmann::json::parse(read_file(out + "/manifest.json"));
-    EXPECT_EQ(manifest["run"]["samples"], samples) << text;
+    const auto manifest = record::Json::parse(read_file(out + "/manifest.json"));
+    EXPECT_EQ(manifest.at("run").at("samples").get<std::int64_t>(), samples) << text;
   }
   for (const char* text : {"3 M", "M", "0.5", "1.5", "k3", "1e400", "99999999999M", "0x10"})
     EXPECT_EQ(mimicx("imitate " + path("none.npz") + " --samples '" + text + "'").status, 2) << text;

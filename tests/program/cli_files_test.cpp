@@ -1,6 +1,5 @@
 // The subcommands that look at files or write others.
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "core/npz/npz.h"
@@ -9,6 +8,7 @@
 #include "import/motion_file.h"
 #include "physics/mjcf.h"
 #include "program/cli.h"
+#include "record/json.h"
 
 namespace mimicx::program {
 namespace {
@@ -180,11 +180,11 @@ TEST_F(Cli, AuditReportsFailuresContinuesAndWritesJson) {
   EXPECT_TRUE(says(call, "bad.npz: left out: ")) << call.text;
   EXPECT_TRUE(says(call, "hover.npz: mean unexplained root force 687 N, 100 % of the weight")) << call.text;
   EXPECT_TRUE(says(call, "no point within 1 cm of the floor in 100 % of the frames")) << call.text;
-  const auto json = nlohmann::json::parse(read_file(path("audit.json")));
-  const auto& audit = json["files"][0]["audits"][0];
-  EXPECT_EQ(audit["passed"], false);
-  EXPECT_EQ(audit["rows"]["root_force_N"].size(), 18u);
-  EXPECT_NEAR(audit["summary"]["root_force_mean_N"].get<double>(), 9.81 * 70.0, 1.0);
+  const auto json = record::Json::parse(read_file(path("audit.json")));
+  const auto& audit = json.at("files").at(0).at("audits").at(0);
+  EXPECT_FALSE(audit.at("passed").get<bool>());
+  EXPECT_EQ(audit.at("rows").at("root_force_N").elements().size(), 18u);
+  EXPECT_NEAR(audit.at("summary").at("root_force_mean_N").get<double>(), 9.81 * 70.0, 1.0);
 }
 
 TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {

@@ -1,6 +1,5 @@
 // The first quarter of an hour: what a new user is told.
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "core/file.h"
@@ -10,6 +9,7 @@
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "program/cli.h"
+#include "record/json.h"
 #include "run/results.h"
 
 namespace mimicx::program {
@@ -70,9 +70,9 @@ TEST_F(Cli, ReportsASpentBudgetAndALargerOneContinues) {
   EXPECT_EQ(more.status, 1) << more.text;
   EXPECT_TRUE(says(more, "goes on from a training of 512 samples")) << more.text;
   EXPECT_TRUE(read_file(path("run/training/a.csv")).starts_with(before)) << "the same training";
-  const auto manifest = nlohmann::json::parse(read_file(path("run/manifest.json")));
-  EXPECT_EQ(manifest["run"]["samples"], 1024);
-  EXPECT_EQ(manifest["sequences"][0]["samples"], 1024);
+  const auto manifest = record::Json::parse(read_file(path("run/manifest.json")));
+  EXPECT_EQ(manifest.at("run").at("samples").get<int>(), 1024);
+  EXPECT_EQ(manifest.at("sequences").at(0).at("samples").get<int>(), 1024);
   const auto done = run::results_of(path("run"));
   mimicx(command + "1024");
   EXPECT_EQ(run::results_of(path("run")), done) << "the same budget keeps what is there";
@@ -111,8 +111,9 @@ TEST_F(Cli, BvhPrintsThreeDecisionsAndAllOnRequest) {
   for (const std::string_view name : kBodyNames)
     EXPECT_TRUE(name.find('_') == std::string_view::npos || !says(all, std::string(name))) << name;
   EXPECT_EQ(mimicx("plan " + bvh.string() + " --limit-seconds 1e-3 --out " + path("run")).status, 1);
-  const auto manifest = nlohmann::json::parse(read_file(path("run/manifest.json")));
-  EXPECT_GE(manifest["sequences"][0]["decisions"].size(), 9u) << "the manifest has all of them";
+  const auto manifest = record::Json::parse(read_file(path("run/manifest.json")));
+  EXPECT_GE(manifest.at("sequences").at(0).at("decisions").elements().size(), 9u)
+      << "the manifest has all of them";
 }
 
 TEST_F(Cli, EvaluateAndAuditTakeFilesOfEveryFormat) {

@@ -1,6 +1,4 @@
 // Many motions: folders of folders, and a run that is killed.
-#include <nlohmann/json.hpp>
-
 #include "core/file.h"
 #include "motion/clip_file.h"
 #include "program/cli.h"

@@ -1,5 +1,4 @@
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <tuple>
 
@@ -8,6 +7,7 @@
 #include "import/motion_file.h"
 #include "motion/synthetic_clip.h"
 #include "program/cli.h"
+#include "record/json.h"
 
 namespace mimicx::program {
 namespace {
@@ -82,9 +82,9 @@ TEST_F(CliPoses, WritesARowPerMotionAndFrameAndSkipsFailures) {
       std::stoi(cell(2, "frames")) + std::stoi(cell(3, "frames")) + std::stoi(cell(4, "frames"));
   EXPECT_EQ(frames.size(), static_cast<std::size_t>(expected) + 1);
   for (const std::string& line : frames) EXPECT_EQ(split(line, ',').size(), split(frames[0], ',').size());
-  const auto json = nlohmann::json::parse(read_file(path("a.json")));
-  EXPECT_EQ(json["files"].size(), 4u);
-  EXPECT_EQ(json["files"][2]["summary"]["hovers_share"], 1.0);
+  const auto json = record::Json::parse(read_file(path("a.json")));
+  EXPECT_EQ(json.at("files").elements().size(), 4u);
+  EXPECT_EQ(json.at("files").at(2).at("summary").at("hovers_share").get<double>(), 1.0);
 }
 
 TEST_F(CliPoses, ThreadsDoNotChangeABit) {
@@ -174,10 +174,10 @@ TEST_F(CliProtocol, MissingMotionIsNoSuccess) {
   EXPECT_EQ(call.status, 1) << call.text;
   EXPECT_TRUE(says(call, "motions/c: left out: ")) << call.text;
   EXPECT_TRUE(says(call, "over 0.5 m")) << call.text;
-  const auto folder = nlohmann::json::parse(read_file(path("p.json")))["folders"][0];
-  EXPECT_NEAR(folder["pooled"]["Succ"]["value"].get<double>(), 100.0 / 3.0, 1e-9);
-  EXPECT_NEAR(folder["pooled"]["E_g-mpjpe"]["value"].get<double>(), 1050.0, 1e-6);
-  EXPECT_NEAR(folder["succeeded"]["E_g-mpjpe"]["value"].get<double>(), 100.0, 1e-6);
+  const auto folder = record::Json::parse(read_file(path("p.json"))).at("folders").at(0);
+  EXPECT_NEAR(folder.at("pooled").at("Succ").at("value").get<double>(), 100.0 / 3.0, 1e-9);
+  EXPECT_NEAR(folder.at("pooled").at("E_g-mpjpe").at("value").get<double>(), 1050.0, 1e-6);
+  EXPECT_NEAR(folder.at("succeeded").at("E_g-mpjpe").at("value").get<double>(), 100.0, 1e-6);
 }
 
 TEST_F(CliProtocol, PrintsTheProtocolsColumnsAndALinePerFolder) {

@@ -1,5 +1,4 @@
 // Several machines, one run: parts in any order, and what `mimicx merge` makes of them.
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/file.h"
@@ -7,6 +6,7 @@
 #include "motion/clip_file.h"
 #include "program/cli.h"
 #include "record/folder_lock.h"
+#include "record/json.h"
 #include "record/shard.h"
 #include "run/results.h"
 
@@ -60,9 +60,9 @@ TEST_F(CliShards, MergeIntoTheBytesOfTheUnshardedRun) {
     const std::string shards = std::to_string(count).append(" shards");
     EXPECT_TRUE(says(merge, "4 motions of ") && says(merge, shards + ", 3 ok, 1 failed")) << merge.text;
     EXPECT_EQ(merged(out), whole) << count;
-    const auto times = nlohmann::json::parse(read_file(path(out + "/timing.json")))["sequences"];
-    EXPECT_EQ(times.size(), 4u);
-    EXPECT_EQ(times[1]["name"], "a-2");
+    const auto times = record::Json::parse(read_file(path(out + "/timing.json"))).at("sequences");
+    EXPECT_EQ(times.elements().size(), 4u);
+    EXPECT_EQ(times.at(1).at("name").get<std::string>(), "a-2");
   }
   EXPECT_EQ(mimicx(plan("in5")).status, 1) << "the merged run goes on as one that was never in parts";
   EXPECT_EQ(merged("in5"), whole);
@@ -98,9 +98,9 @@ TEST_F(CliShards, MergeListsMissingShardsForSbatchAndFiles) {
   ASSERT_EQ(lines.size(), 4u) << missing.text;
   EXPECT_EQ(lines[0], "--array=1-3");
   for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::filesystem::exists(lines[i])) << lines[i];
-  const auto json = nlohmann::json::parse(mimicx("merge --missing --json " + path("parts")).text);
-  EXPECT_EQ(json["missing"].size(), 3u);
-  EXPECT_EQ(json["missing_array"], "1-3");
+  const auto json = record::Json::parse(mimicx("merge --missing --json " + path("parts")).text);
+  EXPECT_EQ(json.at("missing").elements().size(), 3u);
+  EXPECT_EQ(json.at("missing_array").get<std::string>(), "1-3");
   mimicx(shard("parts", 2, 4));
   EXPECT_TRUE(says(mimicx("merge --missing " + path("parts")), "--array=1,3\n"));
   for (const int i : {1, 3}) mimicx(shard("parts", i, 4));

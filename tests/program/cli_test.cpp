@@ -2,7 +2,6 @@
 #include "program/cli.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "core/bits.h"
@@ -13,6 +12,7 @@
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "record/commit.h"
+#include "record/json.h"
 #include "record/run_folder.h"
 #include "run/results.h"
 
@@ -115,7 +115,7 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
 }
 
 TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
-  const auto json = nlohmann::json::parse(mimicx("config --json").text);
+  const auto json = record::Json::parse(mimicx("config --json").text);
   for (const auto& [command, option, setting] :
        std::vector<std::array<std::string, 3>>{{"imitate", "--samples", "samples"},
                                                {"adapt", "--budget-samples", "samples"},
@@ -160,23 +160,26 @@ TEST_F(Cli, MethodAsPrintedChangesDefaultsAndEachCanBeChangedBack) {
   const auto settings_of_run = [&](const std::string& command, const std::string& out) {
     const Call call = mimicx(command + " --threads 1 --out " + path(out));
     EXPECT_TRUE(std::filesystem::exists(path(out) + "/manifest.json")) << call.text;
-    return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["settings"];
+    return record::Json::parse(read_file(path(out) + "/manifest.json")).at("run").at("settings");
   };
   const std::string pretrain = "pretrain --clusters 1 --samples 0 --no-encoder " + path("a.npz");
   const auto options = settings_of_run(pretrain + " --method printed", "options");
-  EXPECT_EQ(options["residual_actions"], 0);
-  EXPECT_EQ(options["as_is"], true);
+  EXPECT_EQ(options.at("residual_actions").get<double>(), 0);
+  EXPECT_TRUE(options.at("as_is").get<bool>());
   const auto undone = settings_of_run(
       pretrain + " --preset paper --no-as-is --fit --method printed --set residual_actions=1", "residual");
-  EXPECT_EQ(undone["hidden_4"], 256) << "the former name of the preset large";
-  EXPECT_EQ(undone["residual_actions"], 1);
-  EXPECT_EQ(undone["as_is"], false);
-  EXPECT_EQ(undone["fit"], true);
-  EXPECT_EQ(undone["reward_target"], 0);
+  EXPECT_EQ(undone.at("hidden_4").get<double>(), 256) << "the former name of the preset large";
+  EXPECT_EQ(undone.at("residual_actions").get<double>(), 1);
+  EXPECT_FALSE(undone.at("as_is").get<bool>());
+  EXPECT_TRUE(undone.at("fit").get<bool>());
+  EXPECT_EQ(undone.at("reward_target").get<double>(), 0);
   const std::string adapt = "adapt " + path("a.npz") + " --budget-samples 0 --options " + path("options");
-  EXPECT_EQ(settings_of_run(adapt + " --method printed", "dp")["selector"], 0);
-  EXPECT_EQ(settings_of_run(adapt + " --method printed --selector beam", "beam")["selector"], 1);
-  EXPECT_EQ(settings_of_run(adapt + " --selector beam --method printed", "beam_first")["selector"], 1)
+  EXPECT_EQ(settings_of_run(adapt + " --method printed", "dp").at("selector").get<double>(), 0);
+  EXPECT_EQ(settings_of_run(adapt + " --method printed --selector beam", "beam").at("selector").get<double>(),
+            1);
+  EXPECT_EQ(
+      settings_of_run(adapt + " --selector beam --method printed", "beam_first").at("selector").get<double>(),
+      1)
       << "wherever the method stands on the line";
 }
 
@@ -185,12 +188,12 @@ TEST_F(Cli, ManifestRecordsTheSelectorsSettings) {
   mimicx("adapt " + path("a.npz") +
          " --budget-samples 0 --threads 1 --switch-penalty -0.5 --rescue-reward 0.25 --selector single" +
          " --set rescue_frames=12 --set beam_width=3" + " --out " + path("out"));
-  const auto manifest = nlohmann::json::parse(read_file(path("out/manifest.json")));
-  EXPECT_EQ(manifest["run"]["settings"]["switch_penalty"], -0.5);
-  EXPECT_EQ(manifest["run"]["settings"]["rescue_reward"], 0.25);
-  EXPECT_EQ(manifest["run"]["settings"]["selector"], 2);
-  EXPECT_EQ(manifest["run"]["settings"]["rescue_frames"], 12);
-  EXPECT_EQ(manifest["run"]["settings"]["beam_width"], 3);
+  const auto manifest = record::Json::parse(read_file(path("out/manifest.json")));
+  EXPECT_EQ(manifest.at("run").at("settings").at("switch_penalty").get<double>(), -0.5);
+  EXPECT_EQ(manifest.at("run").at("settings").at("rescue_reward").get<double>(), 0.25);
+  EXPECT_EQ(manifest.at("run").at("settings").at("selector").get<double>(), 2);
+  EXPECT_EQ(manifest.at("run").at("settings").at("rescue_frames").get<double>(), 12);
+  EXPECT_EQ(manifest.at("run").at("settings").at("beam_width").get<double>(), 3);
 }
 
 TEST_F(Cli, FindsShippedOptionsByName) {
@@ -199,7 +202,8 @@ TEST_F(Cli, FindsShippedOptionsByName) {
   const auto taken = [&](const std::string& options, const std::string& out) {
     mimicx("adapt " + path("a.npz") + " --method options --budget-samples 0 --threads 1 " + options +
            " --out " + path(out));
-    return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["options"];
+    const auto manifest = record::Json::parse(read_file(path(out) + "/manifest.json"));
+    return manifest.at("run").at("options").get<std::string>();
   };
   const std::string trained = record::file_checksum(shipped / "options.npz"),
                     taught = record::file_checksum(shipped / "taught" / "options.npz");
@@ -276,10 +280,10 @@ TEST_F(Cli, AdaptTrainsNothingIfThePlanSucceeds) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const Call call = mimicx("adapt " + path("a.npz"));
   EXPECT_EQ(call.status, 0) << call.text;
-  const auto manifest = nlohmann::json::parse(read_file(path("a.mimicx/manifest.json")));
-  EXPECT_EQ(manifest["run"]["method"], "auto");
-  EXPECT_EQ(manifest["sequences"][0]["method"], "plan");
-  EXPECT_EQ(manifest["sequences"][0]["samples"], 0);
+  const auto manifest = record::Json::parse(read_file(path("a.mimicx/manifest.json")));
+  EXPECT_EQ(manifest.at("run").at("method").get<std::string>(), "auto");
+  EXPECT_EQ(manifest.at("sequences").at(0).at("method").get<std::string>(), "plan");
+  EXPECT_EQ(manifest.at("sequences").at(0).at("samples").get<int>(), 0);
   EXPECT_TRUE(std::filesystem::exists(path("a.mimicx/plans/a.npz")));
   EXPECT_TRUE(std::filesystem::exists(path("a.clean.npz")));
   EXPECT_FALSE(std::filesystem::exists(path("a.mimicx/training")));
@@ -299,10 +303,11 @@ TEST_F(Cli, WithoutOutTheCleanMotionIsBesideItsInput) {
   const std::string command = "plan " + path("a.npz") + " --threads 1 --rate input";
   const Call call = mimicx(command);
   ASSERT_TRUE(std::filesystem::exists(path("a.mimicx/manifest.json"))) << call.text;
-  const auto manifest = nlohmann::json::parse(read_file(path("a.mimicx/manifest.json")));
-  const auto& entry = manifest["sequences"][0];
-  EXPECT_NE(entry["decisions"].dump().find("up axis: y"), std::string::npos) << entry["decisions"];
-  ASSERT_EQ(entry["status"], "ok") << call.text;
+  const auto manifest = record::Json::parse(read_file(path("a.mimicx/manifest.json")));
+  const auto& entry = manifest.at("sequences").at(0);
+  EXPECT_NE(entry.at("decisions").dump().find("up axis: y"), std::string::npos)
+      << entry.at("decisions").dump();
+  ASSERT_EQ(entry.at("status").get<std::string>(), "ok") << call.text;
   const motion::Clip input = motion::read_clip(path("a.npz")), clean = motion::read_clip(path("a.clean.npz"));
   EXPECT_EQ(clean.body_model, "smplx");
   EXPECT_EQ(clean.fps, 60.0);
@@ -343,10 +348,10 @@ TEST_F(Cli, ImitateContinuesAfterAFailedInput) {
   const Call call = mimicx(command);
   EXPECT_EQ(call.status, 1) << call.text;
   EXPECT_TRUE(std::filesystem::exists(path("out/motions/a.npz"))) << call.text;
-  const auto manifest = nlohmann::json::parse(read_file(path("out/manifest.json")));
-  ASSERT_EQ(manifest["sequences"].size(), 2u);
-  EXPECT_EQ(manifest["sequences"][0]["status"], "failed");
-  EXPECT_EQ(manifest["sequences"][1]["input"], path("a.npz"));
+  const auto manifest = record::Json::parse(read_file(path("out/manifest.json")));
+  ASSERT_EQ(manifest.at("sequences").elements().size(), 2u);
+  EXPECT_EQ(manifest.at("sequences").at(0).at("status").get<std::string>(), "failed");
+  EXPECT_EQ(manifest.at("sequences").at(1).at("input").get<std::string>(), path("a.npz"));
   EXPECT_EQ(mimicx(command + " --seed 2").status, 2) << "a folder of another seed";
 }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/file.h"
 #include "core/setting_checks.h"
 #include "fit/fit_config.h"
+#include "record/json.h"
 
 namespace mimicx::program {
 namespace {
@@ -184,7 +184,7 @@ TEST(Configurations, TrainingFromScratchHasItsOwnSettings) {
 }
 
 TEST(Configurations, TextAndJsonAgree) {
-  const nlohmann::json json = nlohmann::json::parse(configurations_json());
+  const auto json = record::Json::parse(configurations_json());
   std::istringstream lines(format_configurations());
   std::string line;
   std::getline(lines, line);  // the head
@@ -196,17 +196,17 @@ TEST(Configurations, TextAndJsonAgree) {
     EXPECT_EQ(word, row.name);
     for (int column = 0; column < 7; ++column) {
       words >> word;
-      const nlohmann::json& settings = json.at(kConfigurationNames[column]);
+      const record::Json& settings = json.at(kConfigurationNames[column]);
       if (word == "-") {
         EXPECT_FALSE(settings.contains(row.name)) << row.name;
         continue;
       }
       EXPECT_EQ(std::stod(word), row.values[column]) << row.name;
-      EXPECT_EQ(settings.at(row.name), row.values[column]) << row.name;
+      EXPECT_EQ(settings.at(row.name).get<double>(), row.values[column]) << row.name;
     }
     EXPECT_FALSE(row.meaning.empty()) << row.name;
     EXPECT_TRUE(line.ends_with("  " + row.meaning)) << line;
-    EXPECT_EQ(json.at("meaning").at(row.name), row.meaning);
+    EXPECT_EQ(json.at("meaning").at(row.name).get<std::string>(), row.meaning);
   }
   EXPECT_FALSE(std::getline(lines, line));
 }

@@ -79,6 +79,7 @@ TEST(Json, ReadsEachTypeAndNamesTheExpectedOne) {
   EXPECT_EQ(json.at("t").get<std::string>(), "text");
   EXPECT_EQ((json.at("l").get<std::vector<std::array<int, 2>>>()),
             (std::vector<std::array<int, 2>>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(json.at("l").at(1).at(0).get<int>(), 3);
   EXPECT_TRUE(json.at("b").get<bool>());
   EXPECT_EQ(json.value("m", 7).get<int>(), 7);
   EXPECT_THROW(json.at("m"), JsonError);
@@ -100,6 +101,8 @@ TEST(Json, ErrorsSayWhatWasFound) {
     }
   };
   EXPECT_EQ(found("{}", [](const Json& j) { j.at("run"); }), "no member run");
+  EXPECT_EQ(found("[3]", [](const Json& j) { j.at(1); }), "no element 1");
+  EXPECT_EQ(found("{}", [](const Json& j) { j.at(0); }), "a value that is no array");
   EXPECT_EQ(found("3", [](const Json& j) { j.items(); }), "a value that is no object");
   EXPECT_EQ(found("{\n\"a\": 1,\n\"b\" 2}", [](const Json&) {}), "no JSON at line 3");
   EXPECT_EQ(found(R"({"a": 1, "a": 2})", [](const Json&) {}), "\"a\" twice");

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "record/json.h"
 #include "report/digits_reader.h"
 #include "skin/flesh.h"
 #include "skin/shapes.h"
@@ -27,10 +26,12 @@ TEST(ReportBodies, PageDecodesTheBodysSkin) {
   ReportBodies bodies;
   const Character character = make_character({0.5, 1.5, -1.0});
   const std::string key = bodies.take(character);
-  const auto own = nlohmann::json::parse(bodies.texts().at(key));
-  const auto shared = nlohmann::json::parse(skin_json());
-  const std::string vertices = own["vertices"], joints = shared["joints"], weights = shared["weights"],
-                    triangles = shared["triangles"];
+  const auto own = record::Json::parse(bodies.texts().at(key));
+  const auto shared = record::Json::parse(skin_json());
+  const auto vertices = own.at("vertices").get<std::string>(),
+             joints = shared.at("joints").get<std::string>(),
+             weights = shared.at("weights").get<std::string>(),
+             triangles = shared.at("triangles").get<std::string>();
   const std::size_t count = vertices.size() / 6;
   ASSERT_EQ(joints.size(), 4 * count);
   ASSERT_EQ(weights.size(), 4 * count);
@@ -55,20 +56,21 @@ TEST(ReportBodies, BonesAndShapesMatchTheCharacter) {
   ReportBodies bodies;
   const Character character = make_character({-1.0, 0.5});
   const std::string key = bodies.take(character);
-  const auto own = nlohmann::json::parse(bodies.texts().at(key));
+  const auto own = record::Json::parse(bodies.texts().at(key));
   const std::vector<Capsule> capsules = skin::collision_capsules(character);
-  ASSERT_EQ(own["shapes"].size(), capsules.size());
+  ASSERT_EQ(own.at("shapes").elements().size(), capsules.size());
   for (std::size_t k = 0; k < capsules.size(); ++k) {
-    EXPECT_EQ(own["shapes"][k][0], capsules[k].body);
-    EXPECT_NEAR(own["shapes"][k][5].get<double>(), capsules[k].b_B.y(), 1e-4);
-    EXPECT_NEAR(own["shapes"][k][7].get<double>(), capsules[k].radius, 1e-4);
+    EXPECT_EQ(own.at("shapes").at(k).at(0).get<int>(), capsules[k].body);
+    EXPECT_NEAR(own.at("shapes").at(k).at(5).get<double>(), capsules[k].b_B.y(), 1e-4);
+    EXPECT_NEAR(own.at("shapes").at(k).at(7).get<double>(), capsules[k].radius, 1e-4);
   }
   for (std::size_t b = 0; b < kBodies; ++b)
     for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_NEAR(own["offsets"][b][i].get<double>(), character.joint_offset[b][static_cast<int>(i)], 1e-4);
-  const auto shared = nlohmann::json::parse(skin_json());
-  EXPECT_EQ(shared["parents"][kLeftKnee], kLeftHip);
-  EXPECT_EQ(shared["names"][kLeftKnee], "left knee");
+      EXPECT_NEAR(own.at("offsets").at(b).at(i).get<double>(), character.joint_offset[b][static_cast<int>(i)],
+                  1e-4);
+  const auto shared = record::Json::parse(skin_json());
+  EXPECT_EQ(shared.at("parents").at(kLeftKnee).get<int>(), kLeftHip);
+  EXPECT_EQ(shared.at("names").at(kLeftKnee).get<std::string>(), "left knee");
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "record/json.h"
 
 namespace mimicx::report {
 namespace {
@@ -52,22 +53,24 @@ std::string element(const std::string& page, const std::string& id) {
 
 TEST(Report, DataIsEscapedForHtml) {
   const std::string page = format_report(example(), {clip_json(example_clip())});
-  const auto data = nlohmann::json::parse(element(page, "data"));
-  ASSERT_EQ(data["rows"].size(), 1u);
-  const auto& row = data["rows"][0];
-  EXPECT_EQ(row["name"], "walk </script><b>");
-  EXPECT_EQ(row["values"][0][0], 1.23457);
-  EXPECT_TRUE(row["values"][0][1].is_null());
-  EXPECT_EQ(data["metrics"][0]["key"], "FS");
-  EXPECT_EQ(data["metrics"][0]["meaning"], "how far");
-  const auto clip = nlohmann::json::parse(element(page, "clip-0"));
-  EXPECT_EQ(clip["motions"][0]["frames"], 3);
-  EXPECT_EQ(clip["motions"][0]["body"], "4d");
-  EXPECT_EQ(clip["charts"][0]["lines"][0]["name"], "</script>");
-  EXPECT_TRUE(clip["charts"][0]["lines"][0]["values"][2].is_null());
-  EXPECT_NEAR(clip["training"][0]["lines"][0]["values"][0].get<double>(), 0.123456789, 1e-4);
-  EXPECT_EQ(clip["training"][0]["x"][1], 2048);
-  EXPECT_EQ(clip["bars"][0]["spans"], (std::vector<std::vector<int>>{{0, 1}}));
+  const auto data = record::Json::parse(element(page, "data"));
+  ASSERT_EQ(data.at("rows").elements().size(), 1u);
+  const auto& row = data.at("rows").at(0);
+  EXPECT_EQ(row.at("name").get<std::string>(), "walk </script><b>");
+  EXPECT_EQ(row.at("values").at(0).at(0).get<double>(), 1.23457);
+  EXPECT_TRUE(row.at("values").at(0).at(1).is_null());
+  EXPECT_EQ(data.at("metrics").at(0).at("key").get<std::string>(), "FS");
+  EXPECT_EQ(data.at("metrics").at(0).at("meaning").get<std::string>(), "how far");
+  const auto clip = record::Json::parse(element(page, "clip-0"));
+  EXPECT_EQ(clip.at("motions").at(0).at("frames").get<int>(), 3);
+  EXPECT_EQ(clip.at("motions").at(0).at("body").get<std::string>(), "4d");
+  EXPECT_EQ(clip.at("charts").at(0).at("lines").at(0).at("name").get<std::string>(), "</script>");
+  EXPECT_TRUE(clip.at("charts").at(0).at("lines").at(0).at("values").at(2).is_null());
+  EXPECT_NEAR(clip.at("training").at(0).at("lines").at(0).at("values").at(0).get<double>(), 0.123456789,
+              1e-4);
+  EXPECT_EQ(clip.at("training").at(0).at("x").at(1).get<double>(), 2048);
+  EXPECT_EQ(clip.at("bars").at(0).at("spans").get<std::vector<std::vector<int>>>(),
+            (std::vector<std::vector<int>>{{0, 1}}));
 }
 
 TEST(Report, ClipScriptIsOneCallWithDataAndBodies) {
@@ -79,17 +82,18 @@ TEST(Report, ClipScriptIsOneCallWithDataAndBodies) {
 
 TEST(Report, OmitsMissingData) {
   ReportClip clip = example_clip();
-  const auto without = nlohmann::json::parse(clip_json(clip));
+  const auto without = record::Json::parse(clip_json(clip));
   for (const char* key : {"ground", "torques", "camera", "options", "needs"})
     EXPECT_FALSE(without.contains(key)) << key;
-  EXPECT_FALSE(without["motions"][0].contains("support"));
+  EXPECT_FALSE(without.at("motions").at(0).contains("support"));
   clip.torques.resize(3);
   clip.options = {{0, 1, 3}, {2, 2, 0}};
   clip.motions[0].support.resize(3);
-  const auto with = nlohmann::json::parse(clip_json(clip));
-  EXPECT_EQ(with["options"], (std::vector<std::vector<int>>{{0, 1, 3}, {2, 2, 0}}));
-  EXPECT_EQ(with["torques"].get<std::string>().size(), 3u * 2u * kBodies);
-  EXPECT_EQ(with["motions"][0]["support"].get<std::string>().size(), 3u);
+  const auto with = record::Json::parse(clip_json(clip));
+  EXPECT_EQ(with.at("options").get<std::vector<std::vector<int>>>(),
+            (std::vector<std::vector<int>>{{0, 1, 3}, {2, 2, 0}}));
+  EXPECT_EQ(with.at("torques").get<std::string>().size(), 3u * 2u * kBodies);
+  EXPECT_EQ(with.at("motions").at(0).at("support").get<std::string>().size(), 3u);
 }
 
 TEST(Report, EachBodyIsInThePageOnce) {
@@ -98,34 +102,36 @@ TEST(Report, EachBodyIsInThePageOnce) {
   report.bodies = {{"0a", "{\"a\":1}"}, {"1b", "{\"a\":2}"}};
   report.map = "{\"clips\":[]}";
   const std::string page = format_report(report, {clip_json(example_clip())});
-  EXPECT_EQ(nlohmann::json::parse(element(page, "skin"))["parents"][0], -1);
-  EXPECT_EQ(nlohmann::json::parse(element(page, "body-1b"))["a"], 2);
-  EXPECT_TRUE(nlohmann::json::parse(element(page, "data"))["map"]["clips"].empty());
+  EXPECT_EQ(record::Json::parse(element(page, "skin")).at("parents").at(0).get<int>(), -1);
+  EXPECT_EQ(record::Json::parse(element(page, "body-1b")).at("a").get<int>(), 2);
+  EXPECT_TRUE(record::Json::parse(element(page, "data")).at("map").at("clips").elements().empty());
 }
 
 TEST(Report, PlatesAreThereOnlyIfTheSceneHasSome) {
   ReportClip clip = example_clip();
-  EXPECT_FALSE(nlohmann::json::parse(clip_json(clip)).contains("plates"));
+  EXPECT_FALSE(record::Json::parse(clip_json(clip)).contains("plates"));
   clip.scene.plates = {{{1.0, -2.0}, 0.5, {0.25, 0.125}, 0.5}, {{0.0, 0.0}, 0.0, {1.0, 1.0}, 0.25}};
-  const auto plates = nlohmann::json::parse(clip_json(clip))["plates"];
-  EXPECT_EQ(plates, nlohmann::json::parse("[[1, -2, 0.5, 0.25, 0.125, 0.5], [0, 0, 0, 1, 1, 0.25]]"));
+  const auto plates = record::Json::parse(clip_json(clip)).at("plates");
+  EXPECT_EQ(plates.get<std::vector<std::vector<double>>>(),
+            (std::vector<std::vector<double>>{{1, -2, 0.5, 0.25, 0.125, 0.5}, {0, 0, 0, 1, 1, 0.25}}));
 }
 
 TEST(Report, ReferenceNeedsAreThereForAllFramesOrNone) {
   ReportClip clip = example_clip();
-  EXPECT_FALSE(nlohmann::json::parse(clip_json(clip)).contains("needs"));
+  EXPECT_FALSE(record::Json::parse(clip_json(clip)).contains("needs"));
   clip.needs = {{310.123456, 0.0, 2.0}, {4.5, 0.0, 0.03}, {12.0, 0.0, 1.0}, {1.0, 0.0, 0.01}};
   clip.wrong = {"hovers", "feasible", "</script>"};
-  auto data = nlohmann::json::parse(clip_json(clip));
+  auto data = record::Json::parse(clip_json(clip));
   EXPECT_FALSE(data.contains("help"));
-  EXPECT_EQ(data["needs"]["force"][0], 310.1);
-  EXPECT_EQ(data["needs"]["acceleration"][0], 4.5);
-  EXPECT_EQ(data["needs"]["moment"][2], 1.0);
-  EXPECT_EQ(data["needs"]["bar"][2], 0.01);
-  EXPECT_EQ(data["needs"]["wrong"], (std::vector<std::string>{"hovers", "feasible", "</script>"}));
+  EXPECT_EQ(data.at("needs").at("force").at(0).get<double>(), 310.1);
+  EXPECT_EQ(data.at("needs").at("acceleration").at(0).get<double>(), 4.5);
+  EXPECT_EQ(data.at("needs").at("moment").at(2).get<double>(), 1.0);
+  EXPECT_EQ(data.at("needs").at("bar").at(2).get<double>(), 0.01);
+  EXPECT_EQ(data.at("needs").at("wrong").get<std::vector<std::string>>(),
+            (std::vector<std::string>{"hovers", "feasible", "</script>"}));
   clip.assistance = {{100.0}, {1.5}, {3.0}, {0.3}};
-  data = nlohmann::json::parse(clip_json(clip));
-  EXPECT_EQ(data["help"]["force"].size(), 1u);
+  data = record::Json::parse(clip_json(clip));
+  EXPECT_EQ(data.at("help").at("force").elements().size(), 1u);
 }
 
 TEST(Report, NeedsNoNetwork) {
@@ -157,7 +163,7 @@ TEST(Report, IsDeterministic) {
 }
 
 TEST(Report, IsAPageWithoutClips) {
-  EXPECT_TRUE(nlohmann::json::parse(element(format_report({}, {}), "data"))["rows"].empty());
+  EXPECT_TRUE(record::Json::parse(element(format_report({}, {}), "data")).at("rows").elements().empty());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/file.h"
 #include "core/temporary_folder.h"
@@ -14,6 +14,7 @@
 #include "motion/standing_clip.h"
 #include "pipeline/cluster_map.h"
 #include "pipeline/options/features.h"
+#include "record/json.h"
 
 namespace mimicx::report {
 namespace {
@@ -73,16 +74,27 @@ TruthReader reader_of(const std::filesystem::path& file) {
   return [file] { return motion::read_clip(file); };
 }
 
-nlohmann::json json_element(const std::string& page, const std::string& id) {
+record::Json json_element(const std::string& page, const std::string& id) {
   const std::size_t name = page.find("id=\"" + id + "\""), begin = page.find('>', name) + 1;
-  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  return record::Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+using Numbers = std::vector<std::optional<double>>;
+
+/// Of an array; nothing for null.
+Numbers numbers(const record::Json& json) {
+  Numbers all;
+  for (const auto& value : json.elements())
+    all.push_back(value.is_null() ? std::nullopt : std::optional(value.get<double>()));
+  return all;
 }
 
 /// [input, before training, cleaned] of a clip.
-nlohmann::json values(const std::string& page, const std::string& key, std::size_t clip = 0) {
-  const nlohmann::json data = json_element(page, "data");
-  for (std::size_t k = 0; k < data["metrics"].size(); ++k)
-    if (data["metrics"][k]["key"] == key) return data["rows"][clip]["values"][k];
+record::Json values(const std::string& page, const std::string& key, std::size_t clip = 0) {
+  const auto data = json_element(page, "data");
+  for (std::size_t k = 0; k < data.at("metrics").elements().size(); ++k)
+    if (data.at("metrics").at(k).at("key").get<std::string>() == key)
+      return data.at("rows").at(clip).at("values").at(k);
   return nullptr;
 }
 
@@ -101,16 +113,16 @@ TEST(RunReport, EmbedsFiftyClipsAndWritesMoreToFiles) {
   ASSERT_NE(call, std::string::npos);
   EXPECT_TRUE(script.starts_with("// "));
   const std::size_t begin = call + opening.size();
-  const auto told = nlohmann::json::parse("[" + script.substr(begin, script.size() - begin - 3) + "]");
-  EXPECT_EQ(told[0], "clip 7");
-  EXPECT_EQ(told[1], json_element(one, "clip-7"));
-  ASSERT_EQ(told[2].size(), 1u) << "all wear the standard body";
-  const std::string key = told[2].begin().key();
-  EXPECT_EQ(told[2][key], json_element(one, "body-" + key));
-  EXPECT_EQ(told[1]["motions"][0]["body"], key);
+  const auto told = record::Json::parse("[" + script.substr(begin, script.size() - begin - 3) + "]");
+  EXPECT_EQ(told.at(0).get<std::string>(), "clip 7");
+  EXPECT_EQ(told.at(1).dump(), json_element(one, "clip-7").dump());
+  ASSERT_EQ(told.at(2).items().size(), 1u) << "all wear the standard body";
+  const std::string key = told.at(2).items().front().first;
+  EXPECT_EQ(told.at(2).at(key).dump(), json_element(one, "body-" + key).dump());
+  EXPECT_EQ(told.at(1).at("motions").at(0).at("body").get<std::string>(), key);
   EXPECT_EQ(count(one, "id=\"body-"), 1u);
   EXPECT_EQ(count(page, "id=\"body-"), 0u);
-  EXPECT_EQ(json_element(page, "skin"), json_element(one, "skin"));
+  EXPECT_EQ(json_element(page, "skin").dump(), json_element(one, "skin").dump());
 }
 
 /// All files of the report, by name.
@@ -180,30 +192,31 @@ TEST(RunReport, ClipWithMissingFilesSaysSo) {
   Folder run(2);
   std::filesystem::remove(run.run.reference("clip 1"));
   const std::string page = run.page();
-  EXPECT_FALSE(json_element(page, "clip-0")["motions"].empty());
-  const nlohmann::json clip = json_element(page, "clip-1");
-  EXPECT_TRUE(clip["motions"].empty());
-  EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("cannot be shown: "));
+  EXPECT_FALSE(json_element(page, "clip-0").at("motions").elements().empty());
+  const auto clip = json_element(page, "clip-1");
+  EXPECT_TRUE(clip.at("motions").elements().empty());
+  EXPECT_TRUE(clip.at("notes").elements().back().get<std::string>().starts_with("cannot be shown: "));
 }
 
 TEST(RunReport, OmitsTheInputOfOlderRuns) {
   Folder run(1);
   std::filesystem::remove(run.run.input("clip 0"));
-  const nlohmann::json clip = json_element(run.page(), "clip-0");
-  ASSERT_EQ(clip["motions"].size(), 2u);
-  EXPECT_EQ(clip["motions"][0]["who"], "reference");
-  for (const auto& bars : clip["bars"]) EXPECT_FALSE(bars["flaw"].get<bool>());
+  const auto clip = json_element(run.page(), "clip-0");
+  ASSERT_EQ(clip.at("motions").elements().size(), 2u);
+  EXPECT_EQ(clip.at("motions").at(0).at("who").get<std::string>(), "reference");
+  for (const auto& bars : clip.at("bars").elements()) EXPECT_FALSE(bars.at("flaw").get<bool>());
 }
 
 TEST(RunReport, TableHasTheManifestsNumbers) {
   Folder run(1);
   const std::string page = run.page();
-  EXPECT_EQ(values(page, "Float"), (nlohmann::json{40.0, nullptr, 1.0}));
-  EXPECT_EQ(values(page, "FS"), (nlohmann::json{0.0, nullptr, 0.125}));
-  EXPECT_EQ(values(page, "max_distance_mm")[2], 12.0);
-  EXPECT_EQ(values(page, "root_force_mean_N")[2], 0.5);
+  EXPECT_EQ(numbers(values(page, "Float")), (Numbers{40.0, {}, 1.0}));
+  EXPECT_EQ(numbers(values(page, "FS")), (Numbers{0.0, {}, 0.125}));
+  EXPECT_EQ(values(page, "max_distance_mm").at(2).get<double>(), 12.0);
+  EXPECT_EQ(values(page, "root_force_mean_N").at(2).get<double>(), 0.5);
   // A body that hangs 5 cm over the floor needs its weight from nowhere, by its poses.
-  EXPECT_NEAR(values(page, "root_force_mean_N")[0].get<double>(), 9.81 * make_character().total_mass(), 30.0);
+  EXPECT_NEAR(values(page, "root_force_mean_N").at(0).get<double>(), 9.81 * make_character().total_mass(),
+              30.0);
   for (const motion::MetricDefinition& d : motion::metric_definitions())
     EXPECT_FALSE(values(page, d.name).is_null()) << d.name << " has no column";
 }
@@ -215,7 +228,8 @@ TEST(RunReport, MetricsAgainstTheTruthAreThoseOfEvaluate) {
   ReportOptions options;
   options.truth = {{"clip 0", reader_of(truth / "clip 0.npz")}};
   const std::string page = run.page(options);
-  EXPECT_EQ(json_element(page, "clip-0")["motions"].back()["who"], "truth");
+  EXPECT_EQ(json_element(page, "clip-0").at("motions").elements().back().at("who").get<std::string>(),
+            "truth");
   for (const auto& [folder, column] : {std::pair{"inputs", 0}, std::pair{"motions", 2}}) {
     const judge::Evaluation told = judge::evaluate_folders(truth, run.run.root / folder);
     ASSERT_EQ(told.motions.size(), 1u);
@@ -223,7 +237,7 @@ TEST(RunReport, MetricsAgainstTheTruthAreThoseOfEvaluate) {
       double expected = 0.0;
       for (const motion::MetricDefinition& d : motion::metric_definitions())
         if (d.name == std::string(name)) expected = (told.motions[0].metrics.*d.value).value;
-      const auto value = values(page, std::string("truth:") + name)[static_cast<std::size_t>(column)];
+      const auto value = values(page, std::string("truth:") + name).at(static_cast<std::size_t>(column));
       EXPECT_NEAR(value.get<double>(), expected, 1e-5 * std::abs(expected) + 1e-9) << folder << ' ' << name;
     }
   }
@@ -239,15 +253,16 @@ TEST(RunReport, ShowsWhereAClipIsWorseThanItsInputAndWhatWasFollowedInPart) {
   run.manifest.put(lost);
   const std::string page = run.page();
   const auto row = [&](const std::string& clip, const std::string& name) {
-    const nlohmann::json all = json_element(page, clip);
-    for (const auto& bars : all["bars"])
-      if (bars["name"] == name) return bars;
-    return nlohmann::json();
+    const auto all = json_element(page, clip);
+    for (const auto& bars : all.at("bars").elements())
+      if (bars.at("name").get<std::string>() == name) return bars;
+    return record::Json();
   };
-  const nlohmann::json more = row("clip-0", "more sliding");
-  EXPECT_EQ(more["spans"], nlohmann::json::parse("[[1,2],[5,5]]"));
-  EXPECT_EQ(more["meaning"], "worse than the input, 0.4 -> 0.9 mm a frame: its reference slides, too");
-  EXPECT_EQ(row("clip-3", "followed in part")["spans"], nlohmann::json::parse("[[0,2],[4,5]]"));
+  const auto more = row("clip-0", "more sliding");
+  EXPECT_EQ(more.at("spans").dump(), "[[1,2],[5,5]]");
+  EXPECT_EQ(more.at("meaning").get<std::string>(),
+            "worse than the input, 0.4 -> 0.9 mm a frame: its reference slides, too");
+  EXPECT_EQ(row("clip-3", "followed in part").at("spans").dump(), "[[0,2],[4,5]]");
   EXPECT_NE(page.find("sliding 0.4 -> 0.9 mm a frame, most at frames 1-2, 5: its reference"),
             std::string::npos);
   EXPECT_NE(page.find("frames 0-2 in motions/clip 3.part1.npz, frames 4-5 in motions/clip 3.part2.npz"),
@@ -265,8 +280,9 @@ TEST(RunReport, TruthOfAnotherLengthIsNotCompared) {
   ReportOptions options;
   options.truth = {{"clip 0", reader_of(truth / "clip 0.npz")}};
   const std::string page = run.page(options);
-  EXPECT_TRUE(values(page, "truth:MRPE")[2].is_null());
-  EXPECT_TRUE(json_element(page, "clip-0")["notes"].back().get<std::string>().starts_with(
+  EXPECT_TRUE(values(page, "truth:MRPE").at(2).is_null());
+  const auto clip = json_element(page, "clip-0");
+  EXPECT_TRUE(clip.at("notes").elements().back().get<std::string>().starts_with(
       "not compared with the truth: it has "));
 }
 
@@ -274,9 +290,10 @@ TEST(RunReport, ReportsAnUnreadableTruth) {
   Folder run(1);
   ReportOptions options;
   options.truth = {{"clip 0", reader_of(run.folder.path / "none.npz")}};
-  const nlohmann::json clip = json_element(run.page(options), "clip-0");
-  EXPECT_EQ(clip["motions"].size(), 3u);
-  EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("the truth cannot be shown: "));
+  const auto clip = json_element(run.page(options), "clip-0");
+  EXPECT_EQ(clip.at("motions").elements().size(), 3u);
+  EXPECT_TRUE(
+      clip.at("notes").elements().back().get<std::string>().starts_with("the truth cannot be shown: "));
 }
 
 /// Clusters of stiff bodies that stand, travel and rise.
@@ -298,17 +315,19 @@ TEST(RunReport, MapsTheClipsWhereClustersAreKnown) {
   Folder run(2);
   EXPECT_FALSE(json_element(run.page(), "data").contains("map"));
   pipeline::options::write_clusters(run.run.clusters(), some_clusters());
-  const nlohmann::json map = json_element(run.page(), "data")["map"];
-  EXPECT_EQ(map["trained"].size(), 6u);
-  ASSERT_EQ(map["clips"].size(), 2u);
+  const auto map = json_element(run.page(), "data").at("map");
+  EXPECT_EQ(map.at("trained").elements().size(), 6u);
+  ASSERT_EQ(map.at("clips").elements().size(), 2u);
   for (int row = 0; row < 2; ++row) {
-    EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][3], row);
-    EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][2], 0) << "who stands is with the calm ones";
+    const auto& clip = map.at("clips").at(static_cast<std::size_t>(row));
+    EXPECT_EQ(clip.at(3).get<int>(), row);
+    EXPECT_EQ(clip.at(2).get<int>(), 0) << "who stands is with the calm ones";
   }
   const std::filesystem::path others = run.folder.path / "others.json";
   pipeline::options::write_clusters(others, some_clusters());
   std::filesystem::remove(run.run.clusters());
-  EXPECT_EQ(json_element(run.page({.map = pipeline::map_among({others})}), "data")["map"], map);
+  EXPECT_EQ(json_element(run.page({.map = pipeline::map_among({others})}), "data").at("map").dump(),
+            map.dump());
 }
 
 TEST(RunReport, UnreadableClustersOmitOnlyTheMap) {
@@ -321,11 +340,11 @@ TEST(RunReport, UnreadableClustersOmitOnlyTheMap) {
          "the options' clusters.json does not have their features"}}) {
     write_file_atomically(run.run.clusters(), text);
     const std::string page = run.page();
-    const nlohmann::json data = json_element(page, "data");
+    const auto data = json_element(page, "data");
     EXPECT_FALSE(data.contains("map"));
-    EXPECT_EQ(data["run"].back()["name"], "no map of the motions");
-    EXPECT_EQ(data["run"].back()["value"], reason);
-    EXPECT_FALSE(json_element(page, "clip-0")["motions"].empty());
+    EXPECT_EQ(data.at("run").elements().back().at("name").get<std::string>(), "no map of the motions");
+    EXPECT_EQ(data.at("run").elements().back().at("value").get<std::string>(), reason);
+    EXPECT_FALSE(json_element(page, "clip-0").at("motions").elements().empty());
   }
 }
 
@@ -343,18 +362,21 @@ TEST(RunReport, ShowsOptionsAndCameraDetections) {
   pose.topRows<3>() << 1, 0, 0, 0, 0, 0, -1, 0.9, 0, 1, 0, 4.0;
   clip.keypoints->extrinsics.assign(1, pose);
   Folder::write(run.run.root / entry.output, clip);
-  const nlohmann::json shown = json_element(run.page(), "clip-0");
-  EXPECT_EQ(shown["options"], (std::vector<std::vector<int>>{{0, 3, 2}, {4, 5, 1}}));
-  EXPECT_EQ(shown["camera"]["extrinsics"].size(), 1u);
-  const auto& charts = shown["charts"];
-  const bool told = std::any_of(charts.begin(), charts.end(), [](const auto& chart) {
-    return chart["title"]["words"] == "distance from the keypoints" && chart["lines"].size() == 3u;
+  const auto shown = json_element(run.page(), "clip-0");
+  EXPECT_EQ(shown.at("options").get<std::vector<std::vector<int>>>(),
+            (std::vector<std::vector<int>>{{0, 3, 2}, {4, 5, 1}}));
+  EXPECT_EQ(shown.at("camera").at("extrinsics").elements().size(), 1u);
+  const auto& charts = shown.at("charts").elements();
+  const bool told = std::any_of(charts.begin(), charts.end(), [](const record::Json& chart) {
+    return chart.at("title").at("words").get<std::string>() == "distance from the keypoints" &&
+           chart.at("lines").elements().size() == 3u;
   });
   EXPECT_TRUE(told);
   // A body that stands 50 mm higher is seen 50 / 4000 · 100 px higher.
   for (const auto& chart : charts)
-    if (chart["title"]["words"] == "distance from the keypoints") {
-      const double input = chart["lines"][0]["values"][0], cleaned = chart["lines"][2]["values"][0];
+    if (chart.at("title").at("words").get<std::string>() == "distance from the keypoints") {
+      const double input = chart.at("lines").at(0).at("values").at(0),
+                   cleaned = chart.at("lines").at(2).at("values").at(0);
       EXPECT_NEAR(std::abs(input - cleaned), 0.1 * 49.0 / 4.0, 0.05);
     }
   // Through a camera that was told to stand 50 mm higher, too, the input is seen where the reference is.
@@ -362,16 +384,17 @@ TEST(RunReport, ShowsOptionsAndCameraDetections) {
   for (Vector3d& place : of_input.trans) place.z() += 0.049;
   of_input.keypoints->extrinsics[0](1, 3) += 0.05;
   Folder::write(run.run.input("clip 0"), of_input);
-  const nlohmann::json own = json_element(run.page(), "clip-0");
-  EXPECT_NEAR(own["camera"]["told"]["extrinsics"][0][7].get<double>(), 0.95, 1e-9);
-  for (const auto& chart : own["charts"])
-    if (chart["title"]["words"] == "distance from the keypoints") {
-      const double input = chart["lines"][0]["values"][0], reference = chart["lines"][1]["values"][0];
+  const auto own = json_element(run.page(), "clip-0");
+  EXPECT_NEAR(own.at("camera").at("told").at("extrinsics").at(0).at(7).get<double>(), 0.95, 1e-9);
+  for (const auto& chart : own.at("charts").elements())
+    if (chart.at("title").at("words").get<std::string>() == "distance from the keypoints") {
+      const double input = chart.at("lines").at(0).at("values").at(0),
+                   reference = chart.at("lines").at(1).at("values").at(0);
       EXPECT_NEAR(input, reference, 1e-3);
     }
   of_input.keypoints->extrinsics = clip.keypoints->extrinsics;
   Folder::write(run.run.input("clip 0"), of_input);
-  EXPECT_FALSE(json_element(run.page(), "clip-0")["camera"].contains("told"))
+  EXPECT_FALSE(json_element(run.page(), "clip-0").at("camera").contains("told"))
       << "it was cleaned with the same";
 }
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "motion/standing_clip.h"
+#include "record/json.h"
 #include "report/digits_reader.h"
 
 namespace mimicx::report {
@@ -96,14 +96,15 @@ TEST(ReportCamera, UndetectedPointsHaveNoDistance) {
 
 TEST(ReportCamera, RoundTripsThroughThePage) {
   const auto camera = camera_of(seen_clip());
-  const auto json = nlohmann::json::parse(camera_json(*camera));
+  const auto json = record::Json::parse(camera_json(*camera));
   EXPECT_FALSE(json.contains("told"));
-  EXPECT_EQ(json["fx"], kFocal);
-  EXPECT_EQ(json["cy"], kMiddleV);
-  ASSERT_EQ(json["extrinsics"].size(), static_cast<std::size_t>(kCameraFrames));
-  EXPECT_EQ(json["extrinsics"][2], (std::vector<double>{1, 0, 0, -0.02, 0, 0, -1, 0.9, 0, 1, 0, 4.0}));
-  EXPECT_EQ(json["points"][0], (std::vector<double>{kLeftWrist, 0, 0, 0}));
-  const std::string seen = json["seen"];
+  EXPECT_EQ(json.at("fx").get<double>(), kFocal);
+  EXPECT_EQ(json.at("cy").get<double>(), kMiddleV);
+  ASSERT_EQ(json.at("extrinsics").elements().size(), static_cast<std::size_t>(kCameraFrames));
+  EXPECT_EQ(json.at("extrinsics").at(2).get<std::vector<double>>(),
+            (std::vector<double>{1, 0, 0, -0.02, 0, 0, -1, 0.9, 0, 1, 0, 4.0}));
+  EXPECT_EQ(json.at("points").at(0).get<std::vector<double>>(), (std::vector<double>{kLeftWrist, 0, 0, 0}));
+  const auto seen = json.at("seen").get<std::string>();
   ASSERT_EQ(seen.size(), 7u * 5u * kCameraFrames);
   for (int t = 0; t < kCameraFrames; ++t)
     for (std::size_t k = 0; k < 5; ++k) {
