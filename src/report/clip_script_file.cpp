@@ -44,7 +44,7 @@ void take_values(const std::string& line, ReportRow& row) {
   if (values.elements().size() != row.values.size())
     throw record::JsonError("not the values of these metrics");
   for (std::size_t k = 0; k < row.values.size(); ++k) {
-    const std::vector<Json>& three = values.elements()[k].elements();
+    const std::vector<Json>& three = values.at(k).elements();
     if (three.size() != row.values[k].size()) throw record::JsonError("not three values");
     for (std::size_t i = 0; i < three.size(); ++i) row.values[k][i] = record::number_or_nan(three[i]);
   }

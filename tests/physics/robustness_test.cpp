@@ -82,7 +82,7 @@ TEST(Robustness, UnflaggedLanesStayFiniteOverAMillionRandomSteps) {
         ++flagged;
         set_lane(anything(random), lane, s->state, s->target);  // the episode ends
       } else {
-        ASSERT_TRUE(std::isfinite(sum.v[lane])) << "step " << k << ", lane " << lane;
+        ASSERT_TRUE(std::isfinite(sum[lane])) << "step " << k << ", lane " << lane;
       }
     }
   }

@@ -31,6 +31,13 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// With every `word` replaced.
+inline std::string replaced(std::string text, const std::string& word, const std::string& by) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
+    text.replace(at, word.size(), by);
+  return text;
+}
+
 inline constexpr const char* kCommands[] = {"run",         "plan",          "pretrain", "adapt",  "imitate",
                                             "fit",         "cluster",       "evaluate", "info",   "convert",
                                             "corrupt",     "audit",         "report",   "render", "synth",

@@ -225,9 +225,7 @@ TEST_F(Cli, LibraryMessagesDoNotReachTheUser) {
                            "plan DIR/a.npz --joint-map DIR/text --out DIR/o2",
                            "info DIR/bad.bvh --joint-map DIR/a.npz",
                            "run DIR/a.npz --out /proc/x"}) {
-    std::string arguments = line;
-    for (std::size_t at = 0; (at = arguments.find("DIR", at)) != std::string::npos;)
-      arguments.replace(at, 3, folder.path.string());
+    const std::string arguments = replaced(line, "DIR", folder.path.string());
     const Call call = mimicx(arguments);
     EXPECT_TRUE(call.status == 1 || call.status == 2 || call.status == 0) << arguments << ": " << call.status;
     std::string said = call.text;  // names of files apart

@@ -17,12 +17,6 @@ struct Asked {
   std::string file;       ///< the file that would be written
 };
 
-std::string replaced(std::string text, const std::string& word, const std::string& by) {
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
-    text.replace(at, word.size(), by);
-  return text;
-}
-
 struct CliOutputs : Cli {
   void SetUp() override {
     std::filesystem::create_directories(path("in"));

@@ -37,15 +37,15 @@ TEST_F(CliResults, EveryCommandPrintsThemAsJson) {
   EXPECT_TRUE(said("cluster " + a + " " + b + " --out " + path("c.json") + " --json -").contains("clusters"));
   Json run = said("plan " + a + " --no-fit --out " + path("run") + " --json -");
   EXPECT_EQ(run["runs"].elements().size(), 1U);
-  EXPECT_EQ(run["runs"].elements()[0].at("sequences").elements()[0].at("status").get<std::string>(), "ok");
-  EXPECT_EQ(run["runs"].elements()[0].at("folder").get<std::string>(), path("run"));
+  EXPECT_EQ(run["runs"].at(0).at("sequences").at(0).at("status").get<std::string>(), "ok");
+  EXPECT_EQ(run["runs"].at(0).at("folder").get<std::string>(), path("run"));
   EXPECT_TRUE(said("report " + path("run") + " --json -").contains("report"));
   EXPECT_TRUE(said("audit " + path("run/motions") + " --json -").contains("files"));
   said("plan " + a + " --no-fit --substeps --out " + path("stepped") + " --json -");
   EXPECT_EQ(mimicx("certify " + path("stepped/motions") + " --out " + path("certificates")).status, 0);
   const Json replayed = said("certify --replay " + path("certificates/a.cert") + " --json -")["certificates"];
   EXPECT_EQ(replayed.elements().size(), 1U);
-  EXPECT_TRUE(replayed.elements()[0].at("same_bits").get<bool>());
+  EXPECT_TRUE(replayed.at(0).at("same_bits").get<bool>());
   EXPECT_TRUE(
       said("evaluate --truth " + a + " --motions " + path("run/motions") + " --json -").contains("mean"));
 }
@@ -68,8 +68,8 @@ TEST_F(CliResults, JsonOfAllStagesIsThatOfTheirLast) {
   EXPECT_FALSE(std::filesystem::exists(path("all")));
   mimicx(run + path("all.json"));
   Json runs = Json::parse(read_file(path("all.json")))["runs"];
-  EXPECT_EQ(runs.elements()[0].at("folder").get<std::string>(), path("all/clean"));
-  EXPECT_EQ(runs.elements()[0].at("sequences").elements().size(), 1U);
+  EXPECT_EQ(runs.at(0).at("folder").get<std::string>(), path("all/clean"));
+  EXPECT_EQ(runs.at(0).at("sequences").elements().size(), 1U);
 }
 
 TEST_F(CliResults, EvaluateFailsAboveALimit) {
