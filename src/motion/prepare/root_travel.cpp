@@ -15,7 +15,7 @@ constexpr double kContact = 0.04;  ///< m over the lowest height of the frames a
 constexpr double kAround = 0.5;    ///< s
 constexpr double kStretch = 0.2;   ///< s
 constexpr double kWalking = 0.3;   ///< m/s
-constexpr double kShortest = 0.4;  ///< m, of the way that feet walk
+constexpr double kShortest = 0.3;  ///< m, of the way that feet walk
 constexpr int kFewestStretches = 10;
 constexpr double kDiffers = 0.8, kSlides = 0.3;  ///< shares of the way that feet walk
 
