@@ -44,8 +44,7 @@ RaisedFoot place_of(Direction direction, double leg, double amount, Random& rand
     }
     case kSide: {
       const double out = random.uniform(0.15, 0.40) * amount, lift = random.uniform(0.08, 0.26) * amount;
-      return {random.uniform(-0.03, 0.08) * leg, out * leg, lift * leg,
-              random.uniform(-10.0, 10.0) * kDegree};
+      return {random.uniform(-0.03, 0.08) * leg, out * leg, lift * leg, random.uniform(-14.0, 6.0) * kDegree};
     }
     case kBack: {
       const double behind = random.uniform(0.12, 0.38) * amount, lift = random.uniform(0.08, 0.25) * amount;
