@@ -5,7 +5,7 @@
 // Belongs to: docs/method.md §8, §9 (arrangement, joint fine-tuning).
 // Questions: 1. Which options act, and which never do? Why are only those kept?
 //            2. Why does the value of the last frame of a stretch come from the next option's critic?
-//            3. Start PPO on the same motion from nothing ("walk", 4 in 5_follow): what does it reach?
+//            3. Start PPO on the same motion from nothing ("walk", 1 in 5_follow): what does it reach?
 #include "motions.h"
 #include "pipeline/options/arrangement.h"
 #include "plot.h"
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   program::AdaptConfig adapt = program::adapt_configuration();  // what `mimicx adapt` takes,
   adapt.arrangement.beam_width = 16;                            // with a narrower search
   const rl::tracking::TrackingConfig& config = adapt.training.tracking;
-  const auto plain = rl::tracking::make_tracking_clip(tour::motion_of_kind("walk", 4), config);
+  const auto plain = rl::tracking::make_tracking_clip(tour::motion_of_kind("walk", 1), config);
   const auto set = read_options(argc > 1 ? argv[1] : MIMICX_SOURCE_DIR "/data/options");
   const ArrangedClip arranged = arrange(plain, config, *set, adapt.arrangement);
   std::printf("of %d options %d act:", set->options.count(), arranged.kept.count());

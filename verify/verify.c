@@ -122,7 +122,7 @@ typedef struct {
 
 /* "A broken file": says what is wrong, or NULL. */
 static const char *open_file(Check *check, const Byte *bytes, size_t size) {
-    if (size < PLATES_START || memcmp(bytes, "MIMICERT\5\0\0\0", 12) != 0) return "not a certificate of version 5";
+    if (size < PLATES_START || memcmp(bytes, "MIMICERT\6\0\0\0", 12) != 0) return "not a certificate of version 6";
     uint64_t frame_steps = integer_at(bytes + 12, 4), steps = integer_at(bytes + 16, 8);
     uint64_t plates = integer_at(bytes + 24, 8), start = PLATES_START + plates * sizeof(Plate);
     if (steps < 1 || steps > 1 << 24 || plates > MOST_PLATES) return "no or too many steps, or too many plates";
@@ -193,8 +193,7 @@ static Vec on_axis(Capsule c, double share) { return plus(c.from, times(axis_of(
 static double volume(Capsule c) { return c.radius * c.radius * (length(axis_of(c)) + 4 * c.radius / 3); }
 /* The bodies of a shape: "Mass", "Centre of mass", "Inertia" and "Joints". */
 static void build_bodies(Body *bodies, const double *beta) {
-    Body mean[BODIES];
-    double whole = 0;
+    Body mean[BODIES]; double whole = 0;
     set_skeleton(mean, (const double[SHAPES]){0});
     set_skeleton(bodies, beta);
     for (int i = 0; i < BODIES; i++) {
@@ -214,10 +213,11 @@ static void build_bodies(Body *bodies, const double *beta) {
         bodies[i].bound = row->bound * whole / 70;
         if (row->part == TORSO) bodies[i].centre.z = row->centre * scales_of(beta).size;
         if (row->along == 0) continue;
+        Vec bone = bodies[i].offset, back = {0, -bone.z, bone.y};
         Body *limb = &bodies[PARENT[i]];
-        limb->centre = times(bodies[i].offset, row->centre);
-        limb->across = limb->mass * dot(bodies[i].offset, bodies[i].offset) * pow(row->across, 2);
-        limb->along = limb->mass * dot(bodies[i].offset, bodies[i].offset) * pow(row->along, 2);
+        limb->centre = plus(times(bone, row->centre), times(back, row->behind * length(bone) / length(back)));
+        limb->across = limb->mass * dot(bone, bone) * pow(row->across, 2);
+        limb->along = limb->mass * dot(bone, bone) * pow(row->along, 2);
     }
 }
 /* "Contact points": of the left foot, its instep and the pelvis, their mirror images, and spheres on the axes. */

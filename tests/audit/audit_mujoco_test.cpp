@@ -18,7 +18,7 @@ double largest_force(const std::vector<AuditRow>& rows) {
 }
 
 TEST(AuditByMujoco, AgreesOnRecordedAndReplayedSteps) {
-  const SubstepMotion as_written = written_and_read(Thrown(240.0, 0.3).steps());
+  const SubstepMotion as_written = written_and_read(Thrown(240.0, 0.4).steps());
   EXPECT_LT(test::largest_difference(audit_steps(as_written), test::mujoco_audit_steps(as_written)), 1e-5);
   const SubstepMotion motion = test::on_hinge_axes(as_written);
   const Audit recorded = audit_steps(motion), replayed = audit_replayed_steps(motion);

@@ -178,7 +178,7 @@ TEST(Audit, FrameResidualIsFirstOrderInThePhysicsStep) {
     thrown.rollout = rl::tracking::roll_out(clip, thrown.config, [](int, const float*, float* action) {
       for (int n = 0; n < kDofs; ++n) action[n] = 0.5F * static_cast<float>(n % 3 - 1);
     });
-    thrown.rollout.poses.resize(20);
+    thrown.rollout.poses.resize(10);  // later the joints rest at their targets: only rounding is left
     const Audit audit = thrown.audit();
     force[k] = value(audit, "root_force_mean_N");
     moment[k] = value(audit, "root_moment_mean_Nm");

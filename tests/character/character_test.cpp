@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/random.h"
 #include "core/random_cases.h"
@@ -269,13 +270,26 @@ TEST(Character, LegsAndArmsSwingAsThoseOfPeople) {
   }
 }
 
-TEST(Character, CentresOfTheTrunkAreBetweenTheMiddlesOfHipsAndShoulders) {
+// R. Dumas, L. Chèze and J.-P. Verriest (J. Biomech. 40 (2007), table 2), means of both sexes.
+TEST(Character, CentresOfTrunkAndLegsAreBehindTheirLines) {
   const Character c = make_character();
   const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
+  // How far the centre of mass of a body is behind the line between two points. At rest people face +z.
+  const auto behind = [&](int body, const Vector3d& from, const Vector3d& to) {
+    const Vector3d away = (rest.p_WB[body] + c.com_B[body] - from).cross((to - from).normalized());
+    EXPECT_NEAR(away.norm(), std::abs(away.x()), 0.1 * away.norm()) << body;  // hardly to the side
+    return away.x() * (to.y() > from.y() ? 1.0 : -1.0);
+  };
   const Vector3d hips = 0.5 * (rest.p_WB[kLeftHip] + rest.p_WB[kRightHip]);
-  const Vector3d line = 0.5 * (rest.p_WB[kLeftShoulder] + rest.p_WB[kRightShoulder]) - hips;
-  for (const int i : {kPelvis, kSpine1, kSpine2, kSpine3})
-    EXPECT_LT((rest.p_WB[i] + c.com_B[i] - hips).cross(line.normalized()).norm(), 0.001) << i;
+  const Vector3d shoulders = 0.5 * (rest.p_WB[kLeftShoulder] + rest.p_WB[kRightShoulder]);
+  EXPECT_NEAR(behind(kPelvis, hips, shoulders), 0.011, 0.001);
+  for (const int i : {kSpine1, kSpine2, kSpine3}) EXPECT_NEAR(behind(i, hips, shoulders), 0.014, 0.001) << i;
+  for (const auto& [body, child, share] : {std::tuple(kLeftHip, kLeftKnee, 0.5 * (0.041 + 0.077)),
+                                           std::tuple(kLeftKnee, kLeftAnkle, 0.5 * (0.048 + 0.049))})
+    for (const int right : {0, 1})
+      EXPECT_NEAR(behind(body + right, rest.p_WB[body + right], rest.p_WB[child + right]),
+                  share * c.joint_offset[child + right].norm(), 0.001)
+          << body + right;
 }
 
 TEST(Character, SolePointsComeFirstAndLieInOnePlane) {

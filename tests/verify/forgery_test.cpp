@@ -478,7 +478,7 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
       case 0:
         file.resize(static_cast<std::size_t>(random.uniform() * (size - 1)));
         wanted =
-            file.size() < kPlates ? "not a certificate of version 5" : "size differs from that of its steps";
+            file.size() < kPlates ? "not a certificate of version 6" : "size differs from that of its steps";
         break;
       case 1:
         file[kHead + static_cast<std::size_t>(random.uniform() * (size - kHead))] ^= 1 << (k / 8 % 8);
@@ -486,11 +486,11 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
         break;
       case 2:
         file[static_cast<std::size_t>(random.uniform() * 8)] ^= 4;
-        wanted = "not a certificate of version 5";
+        wanted = "not a certificate of version 6";
         break;
       case 3:
         set_integer(file, 8, 5 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
-        wanted = "not a certificate of version 5";
+        wanted = "not a certificate of version 6";
         break;
       case 4:
         file += std::string(1 + static_cast<std::size_t>(random.uniform() * 100), 'x');

@@ -22,7 +22,7 @@ namespace mimicx::audit {
 namespace {
 
 constexpr std::string_view kMagic = "MIMICERT";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::size_t kFixed = 64, kHash = 32;
 constexpr double kEdge = 1e-6;  ///< of touching, within which float32 decides, m
 constexpr std::size_t kPoints = 37, kPlateNumbers = 8;

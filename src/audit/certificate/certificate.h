@@ -34,7 +34,7 @@ struct CertificateReplay {
   long first_state = -1;  ///< the first step whose next state has other bits; −1: none
   long first_step = -1;   ///< the first step with other velocities, torques or forces
 };
-/// @throws DataError if the file is no certificate of version 5
+/// @throws DataError if the file is no certificate of version 6
 CertificateReplay replay_certificate(const std::filesystem::path& path);
 
 }  // namespace mimicx::audit

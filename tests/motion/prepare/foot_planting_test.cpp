@@ -165,7 +165,7 @@ TEST(FootPlanting, KneesOfAKneelingPersonStayOutOfTheFloor) {
   };
   for (int t = 0; t < reference.size(); ++t) {
     ReferenceFrame& frame = reference.frames[t];
-    for (const int knee : {kLeftKnee, kRightKnee}) frame.q[knee] = exp_map(2.15 * hinge_axis(knee));
+    for (const int knee : {kLeftKnee, kRightKnee}) frame.q[knee] = exp_map(2.12 * hinge_axis(knee));
     frame.p_root.z() -= lowest(forward_kinematics(reference.character, frame.p_root, frame.q), false);
     reference.poses[t] = forward_kinematics(reference.character, frame.p_root, frame.q);
   }

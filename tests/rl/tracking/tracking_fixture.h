@@ -53,20 +53,20 @@ inline motion::Reference on_a_plate(motion::Reference reference) {
   return reference;
 }
 
-/// A swaying stance with bent knees and arms down; `frames` at 30 fps.
+/// A swaying stance: knees bent, arms down, the trunk over the middle of the feet; `frames` at 30 fps.
 inline motion::Reference swaying_reference(int frames) {
   motion::Reference reference;
   reference.name = "sway";
   reference.character = make_character();
-  const double knee = 0.3;
+  const double knee = 0.3, bow = 0.08;
   for (int t = 0; t < frames; ++t) {
     motion::ReferenceFrame f;
     const double phase = 2.0 * 3.14159265358979 * t / 60.0;
     for (auto& q : f.q) q = Quaterniond::Identity();
-    f.q[0] = exp_map(Vector3d(std::acos(0.0), 0, 0));
+    f.q[0] = exp_map(Vector3d(std::acos(0.0) + bow, 0, 0));
     f.p_root = {0, 0, 0.951 - 0.784 * (1.0 - std::cos(0.5 * knee))};
     for (int side = 0; side < 2; ++side) {
-      f.q[kLeftHip + side] = exp_map(Vector3d(-0.5 * knee, 0, 0));
+      f.q[kLeftHip + side] = exp_map(Vector3d(-0.5 * knee - bow, 0, 0));
       f.q[kLeftKnee + side] = exp_map(Vector3d(knee, 0, 0));
       f.q[kLeftAnkle + side] = exp_map(Vector3d(-0.5 * knee, 0, 0));
     }
