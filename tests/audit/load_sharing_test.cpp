@@ -18,23 +18,25 @@ namespace {
 
 constexpr double kLoad = 700.0;
 
-/// Every vertex of {x ≥ 0, A x = b}: all sets of six columns, solved.
-List<Eigen::VectorXd> all_vertices(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+/// Every vertex of {x ≥ 0, A x = b}: all sets of as many columns as rows, solved.
+template <int rows>
+List<Eigen::VectorXd> all_vertices(const Eigen::Matrix<double, rows, Eigen::Dynamic>& A,
+                                   const Eigen::Vector<double, rows>& b) {
   List<Eigen::VectorXd> vertices;
   std::vector<bool> chosen(static_cast<std::size_t>(A.cols()), false);
-  std::fill(chosen.begin(), chosen.begin() + 6, true);
+  std::fill(chosen.begin(), chosen.begin() + rows, true);
   do {
-    Eigen::Matrix<double, 6, 6> square;
+    Eigen::Matrix<double, rows, rows> square;
     std::vector<Eigen::Index> columns;
     for (Eigen::Index k = 0; k < A.cols(); ++k)
       if (chosen[static_cast<std::size_t>(k)]) columns.push_back(k);
-    for (Eigen::Index i = 0; i < 6; ++i) square.col(i) = A.col(columns[static_cast<std::size_t>(i)]);
-    const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(square);
+    for (Eigen::Index i = 0; i < rows; ++i) square.col(i) = A.col(columns[static_cast<std::size_t>(i)]);
+    const Eigen::FullPivLU<Eigen::Matrix<double, rows, rows>> lu(square);
     if (!lu.isInvertible()) continue;
-    const Vector6d part = lu.solve(b);
+    const Eigen::Vector<double, rows> part = lu.solve(b);
     if (part.minCoeff() < -1e-9) continue;
     Eigen::VectorXd x = Eigen::VectorXd::Zero(A.cols());
-    for (Eigen::Index i = 0; i < 6; ++i) x[columns[static_cast<std::size_t>(i)]] = part[i];
+    for (Eigen::Index i = 0; i < rows; ++i) x[columns[static_cast<std::size_t>(i)]] = part[i];
     vertices.push_back(x);
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
   return vertices;
@@ -48,14 +50,14 @@ struct FourPoints {
                        {kLeftFoot, {0.17, 0.15, 0.0}, Vector3d::Zero()},
                        {kRightAnkle, {-0.02, -0.09, 0.0}, Vector3d::Zero()},
                        {kRightFoot, {0.21, -0.13, 0.0}, Vector3d::Zero()}};
-  SharingConfig config{.friction = 0.6, .edges = 4};
+  SharingConfig config{.friction = 0.6, .edges = 4, .pressure = 0.0};
 
   Vector3d edge(int k) const {
     const double angle = std::numbers::pi / 2 * k;
     return {config.friction * std::cos(angle), config.friction * std::sin(angle), 1.0};
   }
-  Eigen::MatrixXd columns() const {
-    Eigen::MatrixXd A(6, 16);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> columns() const {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> A(6, 16);
     for (int i = 0; i < 4; ++i)
       for (int k = 0; k < 4; ++k) A.col(4 * i + k) << (points[i].p - center).cross(edge(k)), edge(k);
     return A;
@@ -101,6 +103,20 @@ double effort_of_forces(const FourPoints& four, const LegEffort& legs, const Eig
 
 class LoadSharingOfFourPoints : public testing::Test {
  protected:
+  /// The ranges are those of the forces in `vertices`.
+  void expect_ranges(const LoadSharing& sharing, const List<Eigen::VectorXd>& vertices) const {
+    ASSERT_GT(vertices.size(), 5U);
+    for (int foot = 0; foot < 2; ++foot)
+      for (int axis = 0; axis < 3; ++axis) {
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (const Eigen::VectorXd& x : vertices) {
+          least = std::min(least, four_.force(x, foot, axis));
+          most = std::max(most, four_.force(x, foot, axis));
+        }
+        EXPECT_NEAR(sharing.least[foot][axis], least, 1e-3 * kLoad) << foot << axis;
+        EXPECT_NEAR(sharing.most[foot][axis], most, 1e-3 * kLoad) << foot << axis;
+      }
+  }
   /// A wrench that the points can supply.
   Vector6d random_wrench(std::uint64_t seed) const {
     Random random(seed, {1});
@@ -114,27 +130,40 @@ class LoadSharingOfFourPoints : public testing::Test {
 
 TEST_F(LoadSharingOfFourPoints, RangesAreThoseOfAllVertices) {
   for (const std::uint64_t seed : {501u, 502u, 503u}) {
+    SCOPED_TRACE(seed);
     const Vector6d wanted = random_wrench(seed);
-    const auto vertices = all_vertices(four_.columns(), wanted);
-    ASSERT_GT(vertices.size(), 5U);
-    const LoadSharing sharing =
-        share_load(wanted, four_.center, four_.points, Matrix3d::Identity(), legs_, four_.config);
-    for (int foot = 0; foot < 2; ++foot)
-      for (int axis = 0; axis < 3; ++axis) {
-        double least = HUGE_VAL, most = -HUGE_VAL;
-        for (const Eigen::VectorXd& x : vertices) {
-          least = std::min(least, four_.force(x, foot, axis));
-          most = std::max(most, four_.force(x, foot, axis));
-        }
-        EXPECT_NEAR(sharing.least[foot][axis], least, 1e-3 * kLoad) << seed << foot << axis;
-        EXPECT_NEAR(sharing.most[foot][axis], most, 1e-3 * kLoad) << seed << foot << axis;
-      }
+    expect_ranges(share_load(wanted, four_.center, four_.points, Matrix3d::Identity(), legs_, four_.config),
+                  all_vertices<6>(four_.columns(), wanted));
   }
+}
+
+// Four more unknowns are how far the load moves to the front, the left, the back and the right, m.
+TEST_F(LoadSharingOfFourPoints, RangesCoverEveryPressureWithinTheirDistance) {
+  SharingConfig config = four_.config;
+  config.pressure = 0.02;
+  const Vector6d wanted = random_wrench(501);
+  Eigen::Matrix<double, 7, Eigen::Dynamic> A = Eigen::Matrix<double, 7, Eigen::Dynamic>::Zero(7, 21);
+  A.topLeftCorner<6, 16>() = four_.columns();
+  for (int k = 0; k < 4; ++k) {
+    const Vector3d away(std::cos(0.5 * std::numbers::pi * k), std::sin(0.5 * std::numbers::pi * k), 0.0);
+    A.col(16 + k) << away.cross(Vector3d(0, 0, wanted[5])), Vector3d::Zero(), 1.0;
+  }
+  A(6, 20) = 1.0;  // what is left of the distance
+  Eigen::Vector<double, 7> b;
+  b << wanted, config.pressure;
+  const LoadSharing sharing =
+      share_load(wanted, four_.center, four_.points, Matrix3d::Identity(), legs_, config);
+  expect_ranges(sharing, all_vertices<7>(A, b));
+  const LoadSharing exact =
+      share_load(wanted, four_.center, four_.points, Matrix3d::Identity(), legs_, four_.config);
+  EXPECT_GT(sharing.most[0].z() - sharing.least[0].z(),
+            exact.most[0].z() - exact.least[0].z() + 0.02 * kLoad);
+  EXPECT_EQ(sharing.least_effort[0], exact.least_effort[0]);
 }
 
 TEST_F(LoadSharingOfFourPoints, NoMixtureOfVerticesTakesLessEffort) {
   const Vector6d wanted = random_wrench(504);
-  const auto vertices = all_vertices(four_.columns(), wanted);
+  const auto vertices = all_vertices<6>(four_.columns(), wanted);
   const LoadSharing sharing =
       share_load(wanted, four_.center, four_.points, Matrix3d::Identity(), legs_, four_.config);
   // The mixture of least effort by brute force: pairwise Frank–Wolfe steps over the vertices.

@@ -95,6 +95,20 @@ Eigen::VectorXd least_effort(const Matrix6X& A, const Vector6d& b, const Eigen::
   return non_negative_least_squares(both, wanted, kTinyForces);
 }
 
+/// A x = b up to horizontal moments whose sizes add up to `most`. Five unknowns follow those of A: the
+/// moments about x and y, the same in the other direction, and what is left of `most`.
+LinearProgram program_of(const Matrix6X& A, const Vector6d& b, double most) {
+  const Eigen::Index n = A.cols();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(7, n + 5);
+  rows.topLeftCorner(6, n) = A;
+  rows.block<2, 2>(0, n).setIdentity();
+  rows.block<2, 2>(0, n + 2) = -Eigen::Matrix2d::Identity();
+  rows.row(6).tail<5>().setOnes();
+  Eigen::VectorXd wanted(7);
+  wanted << b, most;
+  return {rows, wanted};
+}
+
 BodyPoses midway(const BodyPoses& a, const BodyPoses& b) {
   BodyPoses mid;
   for (int i = 0; i < kBodies; ++i) {
@@ -187,13 +201,13 @@ LoadSharing share_load(const Vector6d& wanted, const Vector3d& center, const Lis
   const Vector6d supplied = A * non_negative_least_squares(A, wanted / load, kSmallForces);
   sharing.least_effort = foot_forces(edges, load * least_effort(A, supplied, efforts_A, efforts_b), axes);
   sharing.least = sharing.most = sharing.least_effort;
-  LinearProgram program(A, supplied);
+  LinearProgram program = program_of(A, supplied, config.pressure * std::max(supplied[5], 0.0));
   if (!program.feasible()) return sharing;  // `supplied` is feasible: rounding alone
   for (int foot = 0; foot < 2; ++foot)
     for (int axis = 0; axis < 3; ++axis) {
-      Eigen::VectorXd component(edges.count());
+      Eigen::VectorXd component = Eigen::VectorXd::Zero(edges.count() + 5);
       for (int k = 0; k < edges.count(); ++k)
-        component[k] = foot_of(edges[k].body) == foot ? axes.col(axis).dot(edges[k].force) : 0.0;
+        if (foot_of(edges[k].body) == foot) component[k] = axes.col(axis).dot(edges[k].force);
       sharing.least[foot][axis] = load * component.dot(program.minimum(component));
       sharing.most[foot][axis] = load * component.dot(program.minimum(-component));
     }

@@ -2,9 +2,10 @@
 ///
 /// The motion and the floor's forces on other bodies fix the sum of the wrenches on both feet, not what each
 /// foot carries. With A the wrenches of the edges of the friction cones at the points of the soles, all x ≥ 0
-/// with A x = h explain the motion equally well. Per component and foot this gives the least and the most
-/// force, by linear programs, and the sharing of least effort: the smallest sum over the joints of the legs
-/// of (torque / bound)².
+/// with A x = h explain the motion equally well, and so do those with a centre of pressure of both feet that
+/// is a centimetre away, because the motion is not known better. Per component and foot this gives the least
+/// and the most force, by linear programs, and, with A x = h, the sharing of least effort: the smallest sum
+/// over the joints of the legs of (torque / bound)².
 ///
 /// What it does not do: intervals are judged one by one, and a person may share a load in any of these ways.
 #pragma once
@@ -31,10 +32,11 @@ struct LoadSharing {
 };
 
 struct SharingConfig {
-  double reach = 0.02;    ///< a sole's point up to this far above the ground touches it, m
-  double window = 0.1;    ///< time around the interval in which a point must touch it to carry, s
-  double friction = 1.0;  ///< μ
-  int edges = 8;          ///< of the pyramid inscribed in the friction cone
+  double reach = 0.02;     ///< a sole's point up to this far above the ground touches it, m
+  double window = 0.1;     ///< time around the interval in which a point must touch it to carry, s
+  double friction = 1.0;   ///< μ
+  int edges = 8;           ///< of the pyramid inscribed in the friction cone
+  double pressure = 0.01;  ///< to which the centre of pressure of both feet is known, m
 };
 
 /// The torques of the legs' joints as functions of the feet's forces: rows · force at a point, against
