@@ -19,6 +19,9 @@ constexpr double kEffortPrice = 1e-4;
 /// Of the squared forces beside efforts.
 constexpr double kTinyForces = 1e-9;
 
+/// Unknowns of the linear program beside the forces: how its centre of pressure moves (program_of).
+constexpr Eigen::Index kMoves = 5;
+
 constexpr Array<int, 8> kLegJoints = {kLeftHip,   kRightHip,   kLeftKnee, kRightKnee,
                                       kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot};
 
@@ -95,15 +98,15 @@ Eigen::VectorXd least_effort(const Matrix6X& A, const Vector6d& b, const Eigen::
   return non_negative_least_squares(both, wanted, kTinyForces);
 }
 
-/// A x = b up to horizontal moments whose sizes add up to `most`. Five unknowns follow those of A: the
+/// A x = b up to horizontal moments whose sizes add up to `most`. kMoves unknowns follow those of A: the
 /// moments about x and y, the same in the other direction, and what is left of `most`.
 LinearProgram program_of(const Matrix6X& A, const Vector6d& b, double most) {
   const Eigen::Index n = A.cols();
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(7, n + 5);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(7, n + kMoves);
   rows.topLeftCorner(6, n) = A;
   rows.block<2, 2>(0, n).setIdentity();
   rows.block<2, 2>(0, n + 2) = -Eigen::Matrix2d::Identity();
-  rows.row(6).tail<5>().setOnes();
+  rows.row(6).tail<kMoves>().setOnes();
   Eigen::VectorXd wanted(7);
   wanted << b, most;
   return {rows, wanted};
@@ -201,11 +204,11 @@ LoadSharing share_load(const Vector6d& wanted, const Vector3d& center, const Lis
   const Vector6d supplied = A * non_negative_least_squares(A, wanted / load, kSmallForces);
   sharing.least_effort = foot_forces(edges, load * least_effort(A, supplied, efforts_A, efforts_b), axes);
   sharing.least = sharing.most = sharing.least_effort;
-  LinearProgram program = program_of(A, supplied, config.pressure * std::max(supplied[5], 0.0));
+  LinearProgram program = program_of(A, supplied, config.pressure * supplied[5]);
   if (!program.feasible()) return sharing;  // `supplied` is feasible: rounding alone
   for (int foot = 0; foot < 2; ++foot)
     for (int axis = 0; axis < 3; ++axis) {
-      Eigen::VectorXd component = Eigen::VectorXd::Zero(edges.count() + 5);
+      Eigen::VectorXd component = Eigen::VectorXd::Zero(edges.count() + kMoves);
       for (int k = 0; k < edges.count(); ++k)
         if (foot_of(edges[k].body) == foot) component[k] = axes.col(axis).dot(edges[k].force);
       sharing.least[foot][axis] = load * component.dot(program.minimum(component));
