@@ -489,7 +489,7 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
         wanted = "not a certificate of version 6";
         break;
       case 3:
-        set_integer(file, 8, 5 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        set_integer(file, 8, 7 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
         wanted = "not a certificate of version 6";
         break;
       case 4:
