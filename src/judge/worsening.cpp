@@ -124,6 +124,11 @@ bool hangs(const std::vector<Frames>& stretches, const motion::MotionSamples& in
   return height > motion::kContactHeight * frames;
 }
 
+/// Whether the result is no deeper than the simulated floor gives way. @param result  depths, mm
+bool gives_way(const Curve& result) {
+  return *std::max_element(result.begin(), result.end()) <= kCompliantFloor;
+}
+
 /// All that explains a fault.
 struct Evidence {
   const motion::MotionSamples& input;
@@ -141,8 +146,9 @@ std::string special_cause(const Headline& h, const std::vector<Frames>& stretche
     if (sum_over(stretches, carried) >= kShareOfFault * sum_over(stretches, result))
       return "its reference moves the foot that carries the body";
   }
-  if (h.value == &motion::Metrics::gp && *std::max_element(result.begin(), result.end()) <= kCompliantFloor)
-    return "the simulated floor gives way under load";
+  if (h.value == &motion::Metrics::gp)
+    return gives_way(result) ? "the simulated floor gives way under load"
+                             : "limbs reach below it between the points that it carries";
   if (h.value == &motion::Metrics::jitter && lands(stretches, evidence.ground, evidence.weight))
     return "a foot lands";
   return "its reference does not";
@@ -150,7 +156,7 @@ std::string special_cause(const Headline& h, const std::vector<Frames>& stretche
 
 std::string cause(const Headline& h, const std::vector<Frames>& stretches, const Curve& result,
                   const Curve& reference, const Evidence& evidence) {
-  if (h.value == &motion::Metrics::gp && hangs(stretches, evidence.input))
+  if (h.value == &motion::Metrics::gp && gives_way(result) && hangs(stretches, evidence.input))
     return "the input hangs over the floor";
   if (sum_over(stretches, reference) >= kShareOfFault * sum_over(stretches, result))
     return std::string("its reference ") + h.verb + ", too";

@@ -120,6 +120,10 @@ TEST(Worsening, InputThatHangsCannotSink) {
   EXPECT_EQ(sinking->why, "the input hangs over the floor");
   EXPECT_EQ(find(worse(still, still, [](int) { return Vector3d(0.0, 0.0, -0.001); }), "sinking")->why,
             "the simulated floor gives way under load");
+  const auto deep = worse([](int) { return Vector3d(0.0, 0.0, 0.1); }, still,
+                          [](int t) { return Vector3d(0.0, 0.0, t < 10 ? 0.0 : -0.02); });
+  EXPECT_EQ(find(deep, "sinking")->why, "limbs reach below it between the points that it carries")
+      << "who hangs does not explain two centimetres";
 }
 
 TEST(Worsening, InfeasibleReferenceIsNamed) {
