@@ -130,8 +130,9 @@ std::vector<std::string> what_next(const record::SequenceEntry& entry, const rec
                                     "; beside its reference in " + folder.report().string()};
   if (!entry.parts.empty()) lines.push_back(parts_in_words(entry));
   if (const std::string ended = ended_by(entry); !ended.empty()) lines.push_back(ended);
-  if (value_of(entry.feasibility, "infeasible_share") > 0.0)
-    lines.push_back("the reference is not feasible for any body: mimicx audit --poses '" +
+  if (entry.ending != record::SequenceEnding::kLimitSeconds &&
+      value_of(entry.feasibility, "infeasible_share") > 0.0)
+    lines.push_back("parts of the reference are not feasible for any body: mimicx audit --poses '" +
                     folder.reference(entry.name).string() +
                     "' --frames-csv frames.csv lists the frames; remove or correct them");
   return lines;

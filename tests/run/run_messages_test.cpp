@@ -67,6 +67,20 @@ TEST(Summary, CountsFailuresAndExcludesThemFromMedians) {
   EXPECT_EQ(lines, expected);
 }
 
+TEST(WhatNext, NamesAnInfeasibleReferenceUnlessTimeRanOut) {
+  record::SequenceEntry entry = fallen("jump");
+  entry.output = "rejected/jump.npz";
+  entry.feasibility = {{"infeasible_share", 0.1}};
+  const auto blames = [&] {
+    for (const std::string& line : what_next(entry, {"out"}))
+      if (line.find("feasible") != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(blames());
+  entry.ending = record::SequenceEnding::kLimitSeconds;
+  EXPECT_FALSE(blames());
+}
+
 TEST(Summary, HasAtMostEightLines) {
   std::vector<record::SequenceEntry> entries(3, walk_entry());
   for (record::SequenceEntry& entry : entries)
