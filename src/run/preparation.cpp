@@ -1,6 +1,9 @@
 #include "run/preparation.h"
 
+#include <cmath>
+
 #include "audit/scene_search.h"
+#include "core/number_text.h"
 #include "fit/keypoint_fit.h"
 #include "fit/pose_fit.h"
 #include "motion/prepare/prepare.h"
@@ -82,6 +85,22 @@ std::string find_plates_again(motion::Clip& fitted) {
   return note;
 }
 
+/// Mean height of the pelvis, m.
+double pelvis_height(const PerFrame<BodyPoses>& poses) {
+  double sum = 0.0;
+  for (const BodyPoses& pose : poses) sum += pose.p_WB[kPelvis].z();
+  return sum / poses.count();
+}
+
+/// Where the user gave the height of the floor, frames are still put on it: by much if that height is wrong.
+void note_floor(PreparedMotion& motion) {
+  constexpr double kFarFromFloor = 0.05;  // m, on average
+  const double moved = pelvis_height(motion.reference.poses) - pelvis_height(motion::poses_of(motion.input));
+  if (std::abs(moved) > kFarFromFloor)
+    motion.notes.push_back(formatted("the feet are not on the floor that --floor gives: moved %s by %.2f m",
+                                     moved > 0.0 ? "up" : "down", std::abs(moved)));
+}
+
 }  // namespace
 
 NamedValues settings_of(const CorrectionConfig& correction) {
@@ -121,6 +140,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
   motion::PreparationReport report;
   motion.reference = motion::prepare_reference(motion.fitted, preparing(correction), &report);
   if (!motion.has_fit && !correction.unfitted_keypoints) motion.reference.keypoints.reset();
+  if (motion.input.on_floor) note_floor(motion);
   motion.preparation_values = values_of(report);
   motion.preparation_values.emplace_back("pose_fit_mean_mm", planting.change_mean_mm);
   motion.preparation_values.emplace_back("pose_fit_max_mm", planting.change_max_mm);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "core/temporary_folder.h"
 #include "core/units.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/stance.h"
+#include "motion/standing_clip.h"
 #include "synth/synthesize.h"
 
 namespace mimicx::run {
@@ -88,6 +90,23 @@ TEST(Preparation, AsIsChangesNoPose) {
     EXPECT_LT(plain.reference.frames[t].q[0].angularDistance(exp_map(plain.input.rotations[t][0])), 1e-12);
   }
   EXPECT_FALSE(plain.reference.keypoints.has_value());
+}
+
+TEST(Preparation, SaysThatTheFeetAreNotOnTheGivenFloor) {
+  motion::Clip clip = motion::standing_clip(20);
+  for (Vector3d& place : clip.trans) place.z() += 0.3;
+  const TemporaryFolder folder;
+  const auto path = folder.path / "raised.npz";
+  motion::write_clip(path, clip);
+  const auto notes = [&](std::optional<double> floor) {
+    import::ReadConfig read;
+    read.floor = floor;
+    return prepare_motion(path, read, {}).notes;
+  };
+  const std::string said = "the feet are not on the floor that --floor gives: moved down by 0.30 m";
+  EXPECT_EQ(notes(0.0), std::vector{said});
+  EXPECT_TRUE(notes(0.3).empty());
+  EXPECT_TRUE(notes({}).empty()) << "nobody gave a floor";
 }
 
 TEST(Preparation, AbsentKeypointsGiveTheResultOfIgnoredOnes) {
