@@ -5,10 +5,10 @@
 #include "commands.h"
 #include "import/motion_file.h"
 #include "motion/keypoint_names.h"
-#include "motion/prepare/prepare.h"
 #include "record/json.h"
 #include "record/outputs.h"
 #include "record/utf8_names.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 #include "standard_streams.h"
 
@@ -55,25 +55,32 @@ void describe_file(std::FILE* out, const motion::Clip& clip) {
 }
 
 /// @param told  warnings of the file, which preparation repeats
-void describe_preparation(std::FILE* out, const motion::Reference& reference,
-                          const motion::PreparationReport& report, const std::vector<std::string>& told) {
-  std::fprintf(out, "prepared     %d frames at %g fps\n", reference.size(), reference.fps);
-  std::fprintf(out, "  floor      moved by %.1f mm, at most %.1f mm in a frame\n", report.floor_shift_mm,
-               report.max_floor_shift_mm);
+void describe_preparation(std::FILE* out, const run::PreparedMotion& motion,
+                          const std::vector<std::string>& told) {
+  const auto value = [&](const char* name) { return value_of(motion.preparation_values, name); };
+  std::fprintf(out, "prepared     %d frames at %g fps\n", motion.reference.size(), motion.reference.fps);
+  const double mean =
+                   motion.has_fit ? value_of(motion.fit_values, "change_mean_mm") : value("pose_fit_mean_mm"),
+               most =
+                   motion.has_fit ? value_of(motion.fit_values, "change_max_mm") : value("pose_fit_max_mm");
+  std::fprintf(out, "  fit        to %s: joints moved by %.1f mm on average, %.1f mm at most\n",
+               motion.has_fit ? "keypoints" : "standing feet and balance", mean, most);
+  std::fprintf(out, "  floor      moved by %.1f mm, at most %.1f mm in a frame\n", value("floor_shift_mm"),
+               value("max_floor_shift_mm"));
   std::fprintf(out, "  hinges     joints moved by %.2f mm on average, %.2f mm at most\n",
-               report.hinge_residual_mean_mm, report.hinge_residual_max_mm);
-  std::fprintf(out, "  change     %.1f mm on average, %.1f mm at most\n", report.change_mean_mm,
-               report.change_max_mm);
-  std::fprintf(out, "  feet       levelled by %.1f degrees\n", report.foot_level_deg);
-  std::fprintf(out, "  flagged    %d frames\n", report.flagged_frames);
-  for (const auto& note : report.notes)
+               value("hinge_residual_mean_mm"), value("hinge_residual_max_mm"));
+  std::fprintf(out, "  change     %.1f mm on average, %.1f mm at most\n", value("change_mean_mm"),
+               value("change_max_mm"));
+  std::fprintf(out, "  feet       levelled by %.1f degrees\n", value("foot_level_deg"));
+  std::fprintf(out, "  flagged    %.0f frames\n", value("flagged_frames"));
+  for (const auto& note : motion.notes)
     if (std::find(told.begin(), told.end(), note) == told.end())
       std::fprintf(out, "  note       %s\n", note.c_str());
 }
 
-std::string info_json(const std::string& file, const motion::Clip& clip, const motion::Reference& reference,
-                      const motion::PreparationReport& report) {
+std::string info_json(const std::string& file, const motion::Clip& clip, const run::PreparedMotion& motion) {
   using record::Json, record::number;
+  const auto value = [&](const char* name) { return number(value_of(motion.preparation_values, name)); };
   Json keypoints(nullptr), passed_on = Json::array();
   if (clip.keypoints)
     keypoints = {{"count", clip.keypoints->names.size()},
@@ -91,17 +98,17 @@ std::string info_json(const std::string& file, const motion::Clip& clip, const m
                            {"decisions", clip.decisions},
                            {"warnings", clip.warnings},
                            {"prepared",
-                            {{"frames", reference.size()},
-                             {"fps", number(reference.fps)},
-                             {"floor_shift_mm", number(report.floor_shift_mm)},
-                             {"max_floor_shift_mm", number(report.max_floor_shift_mm)},
-                             {"hinge_residual_mean_mm", number(report.hinge_residual_mean_mm)},
-                             {"hinge_residual_max_mm", number(report.hinge_residual_max_mm)},
-                             {"change_mean_mm", number(report.change_mean_mm)},
-                             {"change_max_mm", number(report.change_max_mm)},
-                             {"foot_level_deg", number(report.foot_level_deg)},
-                             {"flagged_frames", report.flagged_frames},
-                             {"notes", report.notes}}}});
+                            {{"frames", motion.reference.size()},
+                             {"fps", number(motion.reference.fps)},
+                             {"floor_shift_mm", value("floor_shift_mm")},
+                             {"max_floor_shift_mm", value("max_floor_shift_mm")},
+                             {"hinge_residual_mean_mm", value("hinge_residual_mean_mm")},
+                             {"hinge_residual_max_mm", value("hinge_residual_max_mm")},
+                             {"change_mean_mm", value("change_mean_mm")},
+                             {"change_max_mm", value("change_max_mm")},
+                             {"foot_level_deg", value("foot_level_deg")},
+                             {"flagged_frames", value("flagged_frames")},
+                             {"notes", motion.notes}}}});
 }
 
 int info(const InfoArguments& a) {
@@ -112,10 +119,9 @@ int info(const InfoArguments& a) {
   describe_file(out, clip);
   for (const auto& warning : clip.warnings) std::fprintf(out, "warning      %s\n", warning.c_str());
   if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");
-  motion::PreparationReport report;
-  const motion::Reference reference = motion::prepare_reference(clip, {}, &report);
-  describe_preparation(out, reference, report, clip.warnings);
-  if (!a.json.empty()) write_json(a.json, info_json(a.file.string(), clip, reference, report));
+  const run::PreparedMotion prepared = run::prepare_motion(a.file, a.read, {.fit = true});
+  describe_preparation(out, prepared, clip.warnings);
+  if (!a.json.empty()) write_json(a.json, info_json(a.file.string(), clip, prepared));
   return kAllGood;
 }
 

@@ -9,6 +9,7 @@
 #include "physics/mjcf.h"
 #include "program/cli.h"
 #include "record/json.h"
+#include "run/preparation.h"
 
 namespace mimicx::program {
 namespace {
@@ -38,6 +39,16 @@ TEST_F(Cli, InfoListsTheFilesContents) {
   EXPECT_EQ(call.status, 0);
   EXPECT_TRUE(says(call, "20 at 30 fps")) << call.text;
   EXPECT_TRUE(says(call, "mimicx")) << call.text;
+}
+
+TEST_F(Cli, InfoDescribesThePreparationOfARun) {
+  const std::filesystem::path noisy =
+      std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
+  const run::PreparedMotion prepared = run::prepare_motion(noisy, {}, {.fit = true});
+  ASSERT_EQ(mimicx("info " + noisy.string() + " --json " + path("info.json")).status, 0);
+  const record::Json told = record::Json::parse(read_file(path("info.json"))).at("prepared");
+  for (const char* name : {"floor_shift_mm", "change_mean_mm", "change_max_mm", "foot_level_deg"})
+    EXPECT_NEAR(told.at(name).get<double>(), value_of(prepared.preparation_values, name), 1e-6) << name;
 }
 
 TEST_F(Cli, InfoReportsAMotionOfOneFrameAsTooShort) {
