@@ -85,6 +85,7 @@ void remove_t_pose(motion::Clip& clip) {
                                        : "the first " + std::to_string(count) + " frames are a T-pose") +
                            std::string(" out of which the body moves at ") + short_number(fastest) +
                            " m/s: removed");
+  if (!clip.summary.empty()) clip.summary.push_back(clip.decisions.back());
 }
 
 void warn_of_jumps(motion::Clip& clip) {

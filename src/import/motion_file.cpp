@@ -294,6 +294,8 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   if (!o.verbose)
     clip.summary =
         summary_of(format, report, o.standard_body, fps + (assumed ? " (assumed: --fps overrides)" : ""));
+  for (const std::string& line : clip.decisions)
+    if (!o.verbose && line == kTPoseRemoved) clip.summary.push_back(line);
   return clip;
 }
 

@@ -115,6 +115,20 @@ TEST(JointPositions, TheFrameRateIsSaidToBeAssumed) {
   EXPECT_TRUE(decides(asked, "frame rate: 30 fps, as asked for"));
 }
 
+// Whoever overlays the result on the input is a frame off without the line.
+TEST(JointPositions, ARemovedTPoseIsToldInTheSummary) {
+  motion::Clip clip = truth("walk");
+  PerBody<Vector3d> arms_out;
+  arms_out.fill(Vector3d::Zero());
+  arms_out[0] = clip.rotations[0][0];
+  clip.rotations.insert(clip.rotations.begin(), arms_out);
+  clip.trans.insert(clip.trans.begin(), clip.trans[0]);
+  const motion::Clip read = read_positions(positions_of(clip));
+  ASSERT_EQ(read.frames() + 1, clip.frames());
+  EXPECT_TRUE(std::any_of(read.summary.begin(), read.summary.end(),
+                          [](const std::string& line) { return line.find("T-pose") != std::string::npos; }));
+}
+
 TEST(JointPositions, HumanMl3dFeaturesGiveTheSameMotion) {
   for (const char* kind : {"walk_turn", "turn_in_place"}) {
     const motion::Clip exact = truth(kind), clip = read_positions(features_of(positions_of(exact)));

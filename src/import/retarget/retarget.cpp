@@ -61,7 +61,7 @@ void drop_t_pose(Source& source, motion::Clip& clip) {
   source.neutral.body = {source.frames[0]};
   source.neutral_name = "the T-pose of the first frame";
   source.frames.erase(source.frames.begin());
-  clip.decisions.emplace_back("the first frame is a T-pose: removed");
+  clip.decisions.emplace_back(kTPoseRemoved);
 }
 
 /// Up axis of the motion.

@@ -47,6 +47,9 @@ struct RetargetReport {
   bool own = false;                   ///< a skeleton of `write_bvh`, which is copied without any detection
 };
 
+/// The decision about a first frame that is left out.
+inline constexpr const char* kTPoseRemoved = "the first frame is a T-pose: removed";
+
 /// @return a clip of body model "mimicx", z up, metres, at the file's frame rate, standing on z = 0
 /// @throws DataError when bodies cannot be found; std::invalid_argument for an invalid setting
 motion::Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config = {},
