@@ -99,9 +99,9 @@ void bring_into_ranges(Reference& reference, PreparationReport& report) {
   report.range_frames = found.frames;
   report.range_deg = found.farthest / kDegree;
   if (report.range_deg < kToldRange) return;
-  report.notes.push_back(
-      formatted("joints were beyond their ranges in %d frames, by up to %.0f degrees (%s): turned inside",
-                found.frames, report.range_deg, body_in_words(found.body).c_str()));
+  report.notes.push_back(formatted(
+      "joints were beyond their ranges in %d %s, by up to %.0f degrees (%s): turned inside", found.frames,
+      found.frames == 1 ? "frame" : "frames", report.range_deg, body_in_words(found.body).c_str()));
 }
 
 /// Brings joints into their ranges that later steps turned out of them.
@@ -124,12 +124,12 @@ void lead_around(bool sees, Reference& reference, PreparationReport& report) {
   report.passages = found.passages - found.remaining;
   report.passages_left = found.remaining;
   if (found.passages == 0) return;
-  report.notes.push_back(formatted(
-      "limbs pass through the body %d times, first at %.2f s (%s through %s): led around it by up to "
-      "%.0f mm%s",
-      found.passages, found.first_frame / reference.fps, body_in_words(found.limb_body).c_str(),
-      body_in_words(found.obstacle).c_str(), kMm * found.moved,
-      found.remaining == 0 ? "" : "; not everywhere was a way found"));
+  report.notes.push_back(
+      formatted("limbs pass through the body %d %s, first at %.2f s (%s through %s): led around it by up to "
+                "%.0f mm%s",
+                found.passages, found.passages == 1 ? "time" : "times", found.first_frame / reference.fps,
+                body_in_words(found.limb_body).c_str(), body_in_words(found.obstacle).c_str(),
+                kMm * found.moved, found.remaining == 0 ? "" : "; not everywhere was a way found"));
 }
 
 /// Puts the reference on the floor and reports by how much it moved.
@@ -195,7 +195,9 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   require_usable(clip, 2);
   PreparationReport r;
   const Clip input = resampled(clip, config.fps);
-  require_usable(input, 2);
+  if (input.frames() < 2)
+    throw DataError(clip.name, "", formatted("at least 2 frames at %g fps", config.fps),
+                    formatted("%d frames at %g fps", clip.frames(), clip.fps));
   Clip bridged = input;
   Reference out;
   out.name = clip.name;
