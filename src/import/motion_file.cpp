@@ -45,7 +45,8 @@ constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences 
 constexpr const char* kMotions = "a motion (npz, npy, BVH, DeepMimic or .trc)";
 constexpr const char* kConverter =
     "tools/convert_video_results.py converts results of video estimators, and MDM's results.npy";
-constexpr double kFloorWorthSaying = 0.05;  ///< m
+constexpr const char* kFloorForces = "ground_wrenches";  ///< a member of simulated motions
+constexpr double kFloorWorthSaying = 0.05;               ///< m
 
 void require_sense(const ReadConfig& o) {
   const auto require = [](bool sense, const char* what) {
@@ -375,6 +376,20 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
   throw DataError(path.string(), "", kMotions, content_in_words(bytes));
 }
 
+/// A simulated motion keeps its frame rate, axes, unit and floor, to which its forces belong: the settings
+/// are for the files beside it, such as the truth that it is compared with.
+ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
+  const bool simulated = std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
+                                     [](const auto& member) { return member.first == kFloorForces; });
+  if (!simulated || !(config.fps || config.up || config.scale || config.floor)) return config;
+  clip.decisions.emplace_back("simulated: keeps the frame rate, axes, unit and floor of its forces");
+  config.fps.reset();
+  config.up.reset();
+  config.scale.reset();
+  config.floor.reset();
+  return config;
+}
+
 }  // namespace
 
 std::string ReadConfig::text() const {
@@ -445,9 +460,10 @@ std::vector<std::string> notable_decisions(const std::string& file, const motion
 }
 
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
-                         const ReadConfig& config) {
-  require_sense(config);
-  motion::Clip clip = read_any(bytes, path, config);
+                         const ReadConfig& asked) {
+  require_sense(asked);
+  motion::Clip clip = read_any(bytes, path, asked);
+  const ReadConfig config = settings_for(clip, asked);
   repair_angles(path.string(), clip);
   const MotionFormat format = recognise(bytes);
   const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));

@@ -275,6 +275,25 @@ TEST(ReadMotion, TrustsOurOwnFiles) {
   EXPECT_EQ(written_and_read(clip).trans, clip.trans);
 }
 
+// `evaluate --truth joints.npy --fps 120` once scored a result as if it had that rate, too.
+TEST(ReadMotion, SimulatedMotionsKeepRateAxesUnitAndFloor) {
+  motion::Clip clip = test::standing_clip(12, test::standing_height());
+  const std::vector<double> none(12 * kBodies * 6, 0.0);
+  clip.passthrough.emplace_back("ground_wrenches", NpyArray::from_double({12, kBodies, 6}, none.data()));
+  ReadConfig config;
+  config.fps = 120.0;
+  config.up = 'y';
+  config.scale = 0.01;
+  config.floor = 0.5;
+  const motion::Clip kept = written_and_read(clip), asked = written_and_read(clip, config);
+  EXPECT_EQ(asked.fps, kept.fps);
+  EXPECT_EQ(asked.trans, kept.trans);
+  EXPECT_EQ(asked.rotations, kept.rotations);
+  EXPECT_FALSE(asked.on_floor);
+  clip.passthrough.clear();
+  EXPECT_EQ(written_and_read(clip, config).fps, 120.0) << "without forces the settings count";
+}
+
 TEST(WriteMotion, EveryArchiveHasTheJointsOfItsBody) {
   const motion::Clip clip = foreign("wave");
   write_motion(scratch("joints.npz"), clip);
