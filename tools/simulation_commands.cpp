@@ -205,6 +205,7 @@ record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& 
     run.inputs = {file.string()};
     run.out = file.parent_path() / (file.stem().string() + ".mimicx");
     try {
+      if (!std::filesystem::exists(file)) throw std::runtime_error("expected a readable file, found none");
       const record::RunOutcome outcome = once();
       if (!json.empty()) runs.push_back(results_of(run.out));
       if (outcome == record::RunOutcome::kInterrupted) return tell(outcome);

@@ -51,6 +51,14 @@ TEST_F(Cli, InfoDescribesThePreparationOfARun) {
     EXPECT_NEAR(told.at(name).get<double>(), value_of(prepared.preparation_values, name), 1e-6) << name;
 }
 
+TEST_F(Cli, AMissingFileLeavesNoFolderBehind) {
+  const Call call = mimicx("plan " + path("nothere.npz"));
+  EXPECT_EQ(call.status, 1);
+  EXPECT_TRUE(says(call, path("nothere.npz") + ": left out: expected a readable file, found none"))
+      << call.text;
+  EXPECT_FALSE(std::filesystem::exists(path("nothere.mimicx")));
+}
+
 TEST_F(Cli, InfoReportsAMotionOfOneFrameAsTooShort) {
   motion::Clip clip = motion::standing_clip(1);
   clip.keypoints.emplace();
