@@ -59,12 +59,11 @@ void describe_preparation(std::FILE* out, const run::PreparedMotion& motion,
                           const std::vector<std::string>& told) {
   const auto value = [&](const char* name) { return value_of(motion.preparation_values, name); };
   std::fprintf(out, "prepared     %d frames at %g fps\n", motion.reference.size(), motion.reference.fps);
-  const double mean =
-                   motion.has_fit ? value_of(motion.fit_values, "change_mean_mm") : value("pose_fit_mean_mm"),
-               most =
-                   motion.has_fit ? value_of(motion.fit_values, "change_max_mm") : value("pose_fit_max_mm");
+  const NamedValues& fit = motion.has_fit ? motion.fit_values : motion.preparation_values;
+  const std::string change = motion.has_fit ? "change_" : "pose_fit_";
   std::fprintf(out, "  fit        to %s: joints moved by %.1f mm on average, %.1f mm at most\n",
-               motion.has_fit ? "keypoints" : "standing feet and balance", mean, most);
+               motion.has_fit ? "keypoints" : "standing feet and balance", value_of(fit, change + "mean_mm"),
+               value_of(fit, change + "max_mm"));
   std::fprintf(out, "  floor      moved by %.1f mm, at most %.1f mm in a frame\n", value("floor_shift_mm"),
                value("max_floor_shift_mm"));
   std::fprintf(out, "  hinges     joints moved by %.2f mm on average, %.2f mm at most\n",
@@ -87,28 +86,29 @@ std::string info_json(const std::string& file, const motion::Clip& clip, const r
                  {"usable", usable_among(clip.keypoints->names)},
                  {"moving_camera", clip.keypoints->extrinsics.size() > 1}};
   for (const auto& [key, array] : clip.passthrough) passed_on.push_back(name_of_member(key));
-  return record::document({{"file", record::to_utf8(file)},
-                           {"frames", clip.frames()},
-                           {"fps", number(clip.fps)},
-                           {"body_model", clip.body_model},
-                           {"gender", clip.gender},
-                           {"betas", clip.betas},
-                           {"keypoints", keypoints},
-                           {"passed_on", passed_on},
-                           {"decisions", clip.decisions},
-                           {"warnings", clip.warnings},
-                           {"prepared",
-                            {{"frames", motion.reference.size()},
-                             {"fps", number(motion.reference.fps)},
-                             {"floor_shift_mm", value("floor_shift_mm")},
-                             {"max_floor_shift_mm", value("max_floor_shift_mm")},
-                             {"hinge_residual_mean_mm", value("hinge_residual_mean_mm")},
-                             {"hinge_residual_max_mm", value("hinge_residual_max_mm")},
-                             {"change_mean_mm", value("change_mean_mm")},
-                             {"change_max_mm", value("change_max_mm")},
-                             {"foot_level_deg", value("foot_level_deg")},
-                             {"flagged_frames", value("flagged_frames")},
-                             {"notes", motion.notes}}}});
+  return record::document(
+      {{"file", record::to_utf8(file)},
+       {"frames", clip.frames()},
+       {"fps", number(clip.fps)},
+       {"body_model", clip.body_model},
+       {"gender", clip.gender},
+       {"betas", clip.betas},
+       {"keypoints", keypoints},
+       {"passed_on", passed_on},
+       {"decisions", clip.decisions},
+       {"warnings", clip.warnings},
+       {"prepared",
+        {{"frames", motion.reference.size()},
+         {"fps", number(motion.reference.fps)},
+         {"floor_shift_mm", value("floor_shift_mm")},
+         {"max_floor_shift_mm", value("max_floor_shift_mm")},
+         {"hinge_residual_mean_mm", value("hinge_residual_mean_mm")},
+         {"hinge_residual_max_mm", value("hinge_residual_max_mm")},
+         {"change_mean_mm", value("change_mean_mm")},
+         {"change_max_mm", value("change_max_mm")},
+         {"foot_level_deg", value("foot_level_deg")},
+         {"flagged_frames", static_cast<int>(value_of(motion.preparation_values, "flagged_frames"))},
+         {"notes", motion.notes}}}});
 }
 
 int info(const InfoArguments& a) {
