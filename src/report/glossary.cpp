@@ -162,7 +162,7 @@ Table feasibility_words() {
       {"longest_last", {"it ends at frame", "", ""}},
       {"over_torque_share", {"share of frames with a joint over its bound", "", ""}},
       {"torque_max_share", {"largest torque, in parts of the joint's bound", "", ""}},
-      {"lowest_mm", {"lowest point over the floor", "mm", ""}},
+      {"lowest_mm", {"lowest contact point over the floor", "mm", ""}},
       {"in_box_mm", {"depth in the side of a box", "mm", ""}},
       {"help_frames", {"frames that were planned with assistive forces", "", "by a plan's assisted stage"}},
       {"help_force_mean_N", {"assistive force, on average", "N", "on the pelvis"}},
