@@ -247,7 +247,7 @@ TEST_F(Cli, UnreadableFileIsNamedWithStatusOne) {
 TEST_F(Cli, InterruptedTrainingContinuesToTheSameBytes) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string settings =
-      " --samples 20480 --set characters=64 --set group_size=16 --set horizon=8"
+      " --samples 8192 --set characters=64 --set group_size=16 --set horizon=8"
       " --set minibatch=256 --set hidden_1=16 --set hidden_2=16 --out ";
   const std::string command = "imitate " + path("a.npz") + settings;
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);
