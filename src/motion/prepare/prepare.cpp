@@ -198,6 +198,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   if (input.frames() < 2)
     throw DataError(clip.name, "", formatted("at least 2 frames at %g fps", config.fps),
                     formatted("%d frames at %g fps", clip.frames(), clip.fps));
+  require_usable(input, 2);
   Clip bridged = input;
   Reference out;
   out.name = clip.name;
