@@ -48,6 +48,10 @@ constexpr const char* kConverter =
 constexpr const char* kFloorForces = "ground_wrenches";  ///< a member of simulated motions
 constexpr double kFloorWorthSaying = 0.05;               ///< m
 
+bool decided(const char* line, const motion::Clip& clip) {
+  return std::find(clip.decisions.begin(), clip.decisions.end(), line) != clip.decisions.end();
+}
+
 void require_sense(const ReadConfig& o) {
   const auto require = [](bool sense, const char* what) {
     if (!sense) throw std::invalid_argument(what);
@@ -163,12 +167,8 @@ bool is_plausible_at(double fps, const motion::Clip& clip) {
   return implausible_speeds(other).empty();
 }
 
-bool is_rate_assumed(const std::vector<std::string>& decisions) {
-  return std::find(decisions.begin(), decisions.end(), kAssumedRate) != decisions.end();
-}
-
 void settle_fps(const ReadConfig& o, bool believed, motion::Clip& clip) {
-  const bool assumed = is_rate_assumed(clip.decisions);
+  const bool assumed = decided(kAssumedRate, clip);
   if (o.fps) {
     std::erase(clip.decisions, kAssumedRate);
     clip.decisions.push_back(
@@ -290,13 +290,12 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   RetargetReport report;
   motion::Clip clip = retarget(motion, config, &report);
   clip.decisions.insert(clip.decisions.begin(), "format: " + format);
-  const bool assumed = !o.fps && is_rate_assumed(clip.decisions);
+  const bool assumed = !o.fps && decided(kAssumedRate, clip);
   const std::string fps = rate_text(o.fps.value_or(clip.fps)) + " frames per second";
   if (!o.verbose)
     clip.summary =
         summary_of(format, report, o.standard_body, fps + (assumed ? " (assumed: --fps overrides)" : ""));
-  for (const std::string& line : clip.decisions)
-    if (!o.verbose && line == kTPoseRemoved) clip.summary.push_back(line);
+  if (!o.verbose && decided(kTPoseRemoved, clip)) clip.summary.emplace_back(kTPoseRemoved);
   return clip;
 }
 
