@@ -119,7 +119,7 @@ int info(const InfoArguments& a) {
   describe_file(out, clip);
   for (const auto& warning : clip.warnings) std::fprintf(out, "warning      %s\n", warning.c_str());
   if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");
-  const run::PreparedMotion prepared = run::prepare_motion(a.file, a.read, {.fit = true});
+  const run::PreparedMotion prepared = run::prepare_motion(clip, a.file, a.read, {.fit = true});
   describe_preparation(out, prepared, clip.warnings);
   if (!a.json.empty()) write_json(a.json, info_json(a.file.string(), clip, prepared));
   return kAllGood;

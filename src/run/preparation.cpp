@@ -1,6 +1,7 @@
 #include "run/preparation.h"
 
 #include <cmath>
+#include <utility>
 
 #include "audit/scene_search.h"
 #include "core/number_text.h"
@@ -112,10 +113,16 @@ NamedValues settings_of(const CorrectionConfig& correction) {
 
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
                               const CorrectionConfig& correction, int threads) {
+  return prepare_motion(import::read_motion(path, read), path, read, correction, threads);
+}
+
+PreparedMotion prepare_motion(motion::Clip input, const std::filesystem::path& path,
+                              const import::ReadConfig& read, const CorrectionConfig& correction,
+                              int threads) {
   PreparedMotion motion;
   fit::FitConfig config;
   config.threads = threads;
-  motion.input = import::read_motion(path, read);
+  motion.input = std::move(input);
   const bool finds_scene = read.scene_from_motion && motion.input.scene.flat() && motion.input.frames() > 2;
   if (finds_scene) put_on_found_scene(path, read, motion.input);
   motion.has_fit = correction.fits_keypoints() && motion.input.keypoints.has_value();

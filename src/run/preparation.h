@@ -51,6 +51,11 @@ NamedValues settings_of(const CorrectionConfig& correction);
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
                               const CorrectionConfig& correction, int threads = 1);
 
+/// The same of a motion that was read already, with these settings.
+PreparedMotion prepare_motion(motion::Clip input, const std::filesystem::path& path,
+                              const import::ReadConfig& read, const CorrectionConfig& correction,
+                              int threads = 1);
+
 /// Prints `import::told_decisions`.
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);
 
