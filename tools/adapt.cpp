@@ -89,7 +89,7 @@ void declare_adapt(CommandLine& line) {
       {{"paper", "options"}});
   command.flag("--policy", a->config.teaching.teach,
                "every successful plan also teaches a policy, which follows the motion unaided and withstands "
-               "pushes: policies/NAME.npz; takes 2 to 10 times the motion's length");
+               "pushes: policies/NAME.npz; takes one to two times the motion's length");
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);

@@ -72,6 +72,10 @@ std::string formatted(const char* format, ...) {
   return text;
 }
 
+std::string counted(long long number, std::string_view thing) {
+  return std::to_string(number) + ' ' + std::string(thing) + (number == 1 ? "" : "s");
+}
+
 std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.resize(width, ' ');
   return text;

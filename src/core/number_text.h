@@ -19,6 +19,9 @@ std::string text_of(double value);
 /// What printf writes, of any length.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
+/// "1 frame", "2 frames": a number of things, of which a regular noun in the singular names one.
+std::string counted(long long number, std::string_view thing);
+
 /// The text, padded with blanks at its end to at least `width` characters.
 std::string padded(std::string text, std::size_t width);
 

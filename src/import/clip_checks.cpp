@@ -81,11 +81,9 @@ void remove_t_pose(motion::Clip& clip) {
   const int count = t_pose_frames(motion::poses_of(clip), clip.fps, fastest);
   if (count == 0 || clip.frames() - count < 2) return;
   leave_out_first(count, clip);
-  clip.decisions.push_back((count == 1 ? "the first frame is a T-pose"
-                                       : "the first " + std::to_string(count) + " frames are a T-pose") +
-                           std::string(" out of which the body moves at ") + short_number(fastest) +
-                           " m/s: removed");
-  if (!clip.summary.empty()) clip.summary.push_back(clip.decisions.back());
+  clip.decide((count == 1 ? "the first frame is a T-pose"
+                          : "the first " + std::to_string(count) + " frames are a T-pose") +
+              std::string(" out of which the body moves at ") + short_number(fastest) + " m/s: removed");
 }
 
 void warn_of_jumps(motion::Clip& clip) {

@@ -183,10 +183,8 @@ void settle_fps(const ReadConfig& o, bool believed, motion::Clip& clip) {
   const std::string given =
       "frame rate: " + rate_text(clip.fps) + (assumed ? " fps, as assumed" : " fps, as given");
   const std::string falls = !fall ? ""
-                                  : std::to_string(fall->flights) +
-                                        (fall->flights == 1 ? " flight" : " flights") +
-                                        ", in which the body falls with " + short_number(fall->acceleration) +
-                                        " m/s² at the file's rate";
+                                  : counted(fall->flights, "flight") + ", in which the body falls with " +
+                                        short_number(fall->acceleration) + " m/s² at the file's rate";
   const bool other = fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0;
   if (other && fall->agreed && is_plausible_at(usual, clip)) {
     clip.decisions.push_back("frame rate: " + rate_text(usual) + " fps, not " + rate_text(clip.fps) + " (" +
@@ -221,17 +219,15 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
   if (clip.scene.flat()) return;
   double highest = 0.0;
   for (const Plate& plate : clip.scene.plates) highest = std::max(highest, plate.height);
-  std::string said = "scene: " + std::to_string(clip.scene.plates.count()) +
-                     (clip.scene.plates.count() == 1 ? " plate" : " plates") + " up to " +
-                     short_number(highest) + " m";
+  std::string said =
+      "scene: " + counted(clip.scene.plates.count(), "plate") + " up to " + short_number(highest) + " m";
   const double lift = believed || o.floor ? 0.0 : scene_lift(clip);
   if (lift != 0.0) {
     for (Vector3d& trans : clip.trans) trans.z() += lift;
     said += "; the motion is moved " + short_number(std::abs(lift)) + " m " + (lift < 0.0 ? "down" : "up") +
             " onto it";
   }
-  clip.decisions.push_back(said);
-  if (!clip.summary.empty()) clip.summary.push_back(said);
+  clip.decide(said);
   if (const std::string doubt = scene_doubt(clip); !doubt.empty()) clip.warnings.push_back(doubt);
 }
 
@@ -243,8 +239,7 @@ void settle_place(motion::Clip& clip) {
   const Vector3d shift(0.0 - kMove * hundreds.x(), 0.0 - kMove * hundreds.y(), 0.0);  // not -0
   if (shift.isZero(0.0)) return;
   shift_world(shift, clip);
-  clip.decisions.push_back(formatted("place: moved by (%.0f, %.0f) m to the origin", shift.x(), shift.y()));
-  if (!clip.summary.empty()) clip.summary.push_back(clip.decisions.back());
+  clip.decide(formatted("place: moved by (%.0f, %.0f) m to the origin", shift.x(), shift.y()));
 }
 
 void require_near(const std::filesystem::path& path, const motion::Clip& clip) {

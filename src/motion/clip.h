@@ -56,6 +56,11 @@ struct Clip {
   bool on_floor = false;  ///< the user gave the floor as z = 0: preparation adds no constant height
 
   int frames() const { return rotations.count(); }
+  /// Adds a decision that a summary does not leave out.
+  void decide(const std::string& decision) {
+    decisions.push_back(decision);
+    if (!summary.empty()) summary.push_back(decision);
+  }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.
   std::array<double, kBetas> usable_betas() const;
 };

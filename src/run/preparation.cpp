@@ -63,10 +63,7 @@ void put_on_found_scene(const std::filesystem::path& path, import::ReadConfig re
   if (!found.scene.flat()) clip = import::read_motion(path, read);
   std::vector<std::string> words = found.words;
   if (words.empty()) words.emplace_back("no plate found, a flat floor");
-  for (const std::string& line : words) {
-    clip.decisions.push_back("scene: " + line);
-    if (!clip.summary.empty()) clip.summary.push_back("scene: " + line);
-  }
+  for (const std::string& line : words) clip.decide("scene: " + line);
 }
 
 /// A fit moves the feet of an estimate by decimetres, and against each other by more than plates reach beyond

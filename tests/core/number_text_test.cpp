@@ -28,6 +28,11 @@ TEST(Formatted, IsWhatPrintfWritesOfAnyLength) {
   EXPECT_EQ(formatted("%s%d", longest.c_str(), 1), longest + "1");
 }
 
+TEST(NumberText, OneThingIsSingular) {
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(0, "frame") + ", " + counted(12, "time"), "0 frames, 12 times");
+}
+
 TEST(NumberText, AcceptsNumbersOnly) {
   EXPECT_EQ(number_from("-1.5e3"), -1500.0);
   EXPECT_EQ(number_from(".5"), 0.5);

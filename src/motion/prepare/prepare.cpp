@@ -99,9 +99,9 @@ void bring_into_ranges(Reference& reference, PreparationReport& report) {
   report.range_frames = found.frames;
   report.range_deg = found.farthest / kDegree;
   if (report.range_deg < kToldRange) return;
-  report.notes.push_back(formatted(
-      "joints were beyond their ranges in %d %s, by up to %.0f degrees (%s): turned inside", found.frames,
-      found.frames == 1 ? "frame" : "frames", report.range_deg, body_in_words(found.body).c_str()));
+  report.notes.push_back(
+      formatted("joints were beyond their ranges in %s, by up to %.0f degrees (%s): turned inside",
+                counted(found.frames, "frame").c_str(), report.range_deg, body_in_words(found.body).c_str()));
 }
 
 /// Brings joints into their ranges that later steps turned out of them.
@@ -125,9 +125,9 @@ void lead_around(bool sees, Reference& reference, PreparationReport& report) {
   report.passages_left = found.remaining;
   if (found.passages == 0) return;
   report.notes.push_back(
-      formatted("limbs pass through the body %d %s, first at %.2f s (%s through %s): led around it by up to "
+      formatted("limbs pass through the body %s, first at %.2f s (%s through %s): led around it by up to "
                 "%.0f mm%s",
-                found.passages, found.passages == 1 ? "time" : "times", found.first_frame / reference.fps,
+                counted(found.passages, "time").c_str(), found.first_frame / reference.fps,
                 body_in_words(found.limb_body).c_str(), body_in_words(found.obstacle).c_str(),
                 kMm * found.moved, found.remaining == 0 ? "" : "; not everywhere was a way found"));
 }

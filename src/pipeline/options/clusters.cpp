@@ -156,8 +156,7 @@ std::string format_cluster_tree(const Clusters& clusters) {
     const std::string indent(2 * static_cast<std::size_t>(depth.back()), ' ');
     const bool leaf = branch.cluster >= 0;
     out += indent + (leaf ? "cluster " + std::to_string(branch.cluster) + ": " : "") +
-           std::to_string(branch.motions) + (branch.motions == 1 ? " motion" : " motions") +
-           formatted(", diameter %.2f\n", branch.diameter);
+           counted(branch.motions, "motion") + formatted(", diameter %.2f\n", branch.diameter);
     if (!leaf) continue;
     const MotionCluster& cluster = clusters.clusters[branch.cluster];
     out += indent + "  " + cluster.description + '\n';
