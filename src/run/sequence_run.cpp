@@ -48,6 +48,16 @@ PreparedMotion prepared(const RunConfig& config, const std::string& input, int t
   return prepare_motion(input, config.read, config.correction, threads);
 }
 
+/// Why an input cannot be read; empty where it can.
+std::string reading_error(const RunConfig& config, const std::string& input) {
+  try {
+    import::read_motion(input, config.read);
+    return "";
+  } catch (const std::exception& error) {
+    return reason_of(error);
+  }
+}
+
 /// Remakes damaged input, fit and reference files of a finished sequence; reports other damaged files.
 void restore_files(const Worker& worker, const record::SequenceEntry& entry,
                    const std::vector<std::string>& damaged) {
@@ -91,7 +101,11 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
                         (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
                         (!run.config.gains || there->ending != record::SequenceEnding::kFollowed ||
                          has(run.folder.gains(entry.name)));
-  if (!complete || !there->finished() || there->input_checksum != entry.input_checksum) return true;
+  if (!complete || !there->finished()) return true;
+  if (there->input_checksum != entry.input_checksum) {
+    worker.context.messages << entry.name << ": " << input << " has changed since its result: made again\n";
+    return true;
+  }
   if (goes_on(run, *there)) return true;
   const std::vector<std::string> damaged = damaged_files(run.folder, *there);
   if (std::find(damaged.begin(), damaged.end(), there->output) != damaged.end()) {
@@ -106,7 +120,7 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
 /// A note where a motion on the flat floor looks as if something else stood there; else empty.
 std::string look_for_a_scene(const motion::Clip& clip) {
   if (!clip.scene.flat() || clip.frames() < 3) return "";
-  const audit::FoundScene found = audit::find_scene(clip);
+  const audit::FoundScene found = find_scene_of_file(clip);
   if (found.scene.flat()) return "";
   return "looks like steps or a seat (" + found.words.front() + "): try --scene auto, with another --out";
 }
@@ -142,6 +156,7 @@ struct Done {
   record::SequenceEntry entry;
   std::size_t told = 0;      ///< notes of the entry that were printed already
   bool kept = false;         ///< the earlier result is kept
+  std::string unread;        ///< it is kept because the input could not be read: why
   bool interrupted = false;  ///< only the time is recorded
   record::Timing timing;     ///< of this time
 };
@@ -201,6 +216,11 @@ Done work_on(const Worker& worker, const std::string& input, const record::Seque
     done.kept = !begin_entry(worker, input, there, done.entry);
     if (!done.kept) do_sequence(worker, there, done);
   } catch (const std::exception& error) {
+    if (there && there->finished()) done.unread = reading_error(worker.run.config, input);
+    if (!done.unread.empty()) {  // which says nothing about its result
+      done.entry = *there;
+      return done;
+    }
     done.entry.ok = false;
     done.entry.reason = reason_of(error);
     done.entry.output.clear();  // so that the same command tries again
@@ -332,6 +352,12 @@ class ParallelRun {
 
   void publish(const std::string& input, const Done& done, const Worker& worker) {
     const record::SequenceEntry& entry = done.entry;
+    if (!done.unread.empty()) {
+      run_.context.progress.finish(entry.name + ": failed: " + done.unread + "; its earlier result is kept");
+      all_good_ = false;
+      if (jobs_ > 1) run_.context.progress.update(++finished_, "");
+      return;
+    }
     if (!done.kept) add_timing(run_, run_.names.at(input), done.timing, worker.threads);
     if (done.interrupted) return interrupted(entry.name);
     run_.manifest.put(entry);

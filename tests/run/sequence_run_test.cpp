@@ -103,16 +103,35 @@ TEST_F(ParallelRun, FailingInputStopsNoOther) {
   }
 }
 
-TEST_F(ParallelRun, InputThatBecameUnreadableHasNoMotionAnyMore) {
+// A disk may be away for an hour, a file may be half copied.
+TEST_F(ParallelRun, InputThatCannotBeReadKeepsItsResultAndSaysSo) {
   inputs = {inputs[4], (folder.path / "own.npz").string()};
-  motion::write_clip(inputs[1], motion::standing_clip(8));
-  run(planning("run", 2));
-  const std::filesystem::path motion =
-      record::RunFolder{folder.path / "run"}.root / record::RunFolder::motion_name("own", true);
-  ASSERT_TRUE(std::filesystem::exists(motion));
-  std::ofstream(inputs[1]) << "nothing";
-  EXPECT_EQ(run(planning("run", 2)).value, record::RunOutcome::kSomeFailed);
-  EXPECT_FALSE(std::filesystem::exists(motion));
+  for (const int jobs : {1, 2}) {
+    const std::string name = "run" + std::to_string(jobs);
+    motion::write_clip(inputs[1], motion::standing_clip(8));
+    run(planning(name, jobs));
+    const auto made = results(name);
+    const auto says = [](const program::Outcome& outcome, const std::string& text) {
+      return outcome.messages.find(text) != std::string::npos;
+    };
+    std::ofstream(inputs[1]) << "nothing";
+    const program::Outcome damaged = run(planning(name, jobs));
+    EXPECT_EQ(damaged.value, record::RunOutcome::kSomeFailed);
+    EXPECT_TRUE(says(damaged, "own: failed: " + inputs[1]) && says(damaged, "; its earlier result is kept"))
+        << damaged.messages;
+    EXPECT_TRUE(results(name) == made);
+    std::filesystem::remove(inputs[1]);
+    const program::Outcome gone = run(planning(name, jobs));
+    EXPECT_EQ(gone.value, record::RunOutcome::kSomeFailed);
+    EXPECT_TRUE(says(gone, "; its earlier result is kept")) << gone.messages;
+    EXPECT_TRUE(results(name) == made);
+    motion::write_clip(inputs[1], motion::standing_clip(9));
+    const program::Outcome changed = run(planning(name, jobs));
+    EXPECT_EQ(changed.value, record::RunOutcome::kAllGood);
+    EXPECT_TRUE(says(changed, "own: " + inputs[1] + " has changed since its result: made again"))
+        << changed.messages;
+    EXPECT_FALSE(results(name) == made);
+  }
 }
 
 TEST_F(ParallelRun, PrintsTheMessagesOfAMotionTogether) {
