@@ -1,5 +1,7 @@
 #include "core/number_text.h"
 
+#include <locale.h>  // uselocale: POSIX
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -56,7 +58,30 @@ std::string text_of(double value) {
 
 #endif
 
+namespace {
+
+/// Puts this thread into the locale "C": a host of the library may be in one with a decimal comma.
+class PlainLocale {
+#ifndef MIMICX_BARE  // which has no other locale
+ public:
+  PlainLocale() : before_(uselocale(plain())) {}
+  ~PlainLocale() { uselocale(before_); }
+  PlainLocale(const PlainLocale&) = delete;
+  PlainLocale& operator=(const PlainLocale&) = delete;
+
+ private:
+  static locale_t plain() {
+    static const locale_t locale = newlocale(LC_ALL_MASK, "C", nullptr);
+    return locale;
+  }
+  locale_t before_;
+#endif
+};
+
+}  // namespace
+
 std::string formatted(const char* format, ...) {
+  [[maybe_unused]] const PlainLocale plain;
   std::va_list values, again;
   va_start(values, format);
   va_copy(again, values);

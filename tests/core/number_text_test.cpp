@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 
 #include "core/random.h"
+#include "core/temporary_folder.h"
 
 namespace mimicx {
 namespace {
@@ -26,6 +31,26 @@ TEST(Formatted, IsWhatPrintfWritesOfAnyLength) {
   EXPECT_EQ(formatted("%s", ""), "");
   const std::string longest(100'000, 'x');
   EXPECT_EQ(formatted("%s%d", longest.c_str(), 1), longest + "1");
+}
+
+TEST(NumberText, DecimalsHaveAPointWhateverTheLocaleOfTheHost) {
+  const TemporaryFolder folder;
+  const std::string name = (folder.path / "de_DE.UTF-8").string();
+  if (std::system(("localedef -i de_DE -f UTF-8 " + name + " >/dev/null 2>&1").c_str()) != 0 &&
+      !std::filesystem::exists(name))
+    GTEST_SKIP() << "no sources of locales here (Debian: locales)";
+  setenv("LOCPATH", folder.path.c_str(), 1);
+  ASSERT_TRUE(std::setlocale(LC_ALL, "de_DE.UTF-8"));
+  char theirs[8];
+  std::snprintf(theirs, sizeof theirs, "%.1f", 1.5);
+  EXPECT_STREQ(theirs, "1,5") << "the locale has no decimal comma";
+  EXPECT_EQ(formatted("%.1f", 1.5), "1.5");
+  EXPECT_EQ(text_of(1.5), "1.5");
+  EXPECT_EQ(number_from("1.5"), 1.5);
+  std::snprintf(theirs, sizeof theirs, "%.1f", 1.5);
+  EXPECT_STREQ(theirs, "1,5") << "the host's locale stays";
+  std::setlocale(LC_ALL, "C");
+  unsetenv("LOCPATH");
 }
 
 TEST(NumberText, OneThingIsSingular) {
