@@ -67,12 +67,14 @@ class Folder {
       skipped_.push_back(inside(folder) + "/ is " + same->second);
       return;
     }
-    std::error_code error;
+    std::error_code error, none;
     std::filesystem::directory_iterator at(folder, error);
     if (error) files_.push_back({folder.string(), inside(folder)});  // reading it reports the error
-    for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
-      const std::filesystem::path path = at->path();
-      std::error_code none;
+    std::vector<std::pair<bool, std::filesystem::path>> entries;     // links behind what they may lead to
+    for (; !error && at != std::filesystem::directory_iterator(); at.increment(error))
+      entries.emplace_back(at->is_symlink(none), at->path());
+    std::sort(entries.begin(), entries.end());
+    for (const auto& [link, path] : entries) {
       if (!std::filesystem::is_directory(path, none))
         is_input(path) ? files_.push_back({path.string(), inside(path, path.stem())})
                        : skipped_.push_back(inside(path));
@@ -98,6 +100,7 @@ class Folder {
 /// is below the current folder. So results do not depend on how it was typed.
 std::string tidy(const std::string& typed) {
   std::filesystem::path path = std::filesystem::path(typed).lexically_normal();
+  if (whole_path(path) != whole_path(typed)) return typed;  // "link/.." is not where the link is
   if (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);

@@ -75,6 +75,23 @@ TEST_F(FindMotions, FollowsEachLinkOnce) {
   EXPECT_EQ(names(), (std::vector<std::string>{"link/b", "sub/a"}));
 }
 
+TEST_F(FindMotions, NamesMotionsByTheirFolderAndNotByALinkToIt) {
+  touch("in/real/a.npz");
+  for (const char* link : {"in/a_link", "in/z_link"})
+    std::filesystem::create_directory_symlink(path("in/real"), path(link));
+  EXPECT_EQ(names(), std::vector<std::string>{"real/a"});
+}
+
+TEST_F(FindMotions, UpFromALinkIsWhereItLeads) {
+  touch("real/a.npz");
+  touch("here/a.npz");
+  std::filesystem::create_directories(path("real/sub"));
+  std::filesystem::create_directory_symlink(path("real/sub"), path("here/link"));
+  const auto found = find_motions({path("here/link/../a.npz")});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(std::filesystem::equivalent(found[0].path, path("real/a.npz"))) << found[0].path;
+}
+
 TEST_F(FindMotions, SaysWhichNamesAreLinksToAFileThatIsRead) {
   touch("in/a.npz");
   touch("in/sub/c.npz");
