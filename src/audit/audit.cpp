@@ -285,21 +285,18 @@ Audit audit_replayed_steps(const SubstepMotion& motion) {
 }
 
 Audit audit_poses(const motion::Clip& clip) {
-  motion::Clip ours = motion::resampled(clip, kPosesRate);
-  ours.betas = clip.usable_betas();
-  for (Vector3d& p : ours.trans) p += rest_pelvis(clip.body_model) - mimicx::rest_pelvis("mimicx");
-  ours.body_model = "mimicx";
+  const motion::Clip sampled = motion::resampled(clip, kPosesRate);
   Audit audit;
-  const Character character = make_character(ours.betas);
-  const auto poses = motion::poses_of(ours);
+  const Character character = motion::character_of(sampled);
+  const auto poses = motion::poses_of(sampled);
   audit.weight = physics::SimulationConfig{}.gravity * character.total_mass();
   int frame = 0;
-  for (const FrameDemand& demand : motion_demands(ours, {kFloorReach, kFloorReach, true})) {
+  for (const FrameDemand& demand : motion_demands(sampled, {kFloorReach, kFloorReach, true})) {
     AuditRow row;
     row.index = ++frame;
     row.root.head<3>() = demand.residual_moment;
     row.root.tail<3>() = demand.residual_force;
-    row.lowest = lowest_contact(character, poses[frame], ours.scene);
+    row.lowest = lowest_contact(character, poses[frame], sampled.scene);
     audit.rows.push_back(row);
   }
   audit.failures = failures_of(audit);

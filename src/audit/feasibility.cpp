@@ -46,9 +46,7 @@ FrameDemand demand_of(const Character& c, const PerFrame<BodyPoses>& poses, int 
 
 std::vector<FrameDemand> motion_demands(const motion::Clip& clip, const Touching& touching) {
   if (clip.frames() < 3) throw std::invalid_argument("motion_demands: at least 3 frames are needed");
-  if (clip.body_model != "mimicx")
-    throw std::invalid_argument("motion_demands: the body model must be 'mimicx'");
-  const Character character = make_character(clip.betas);
+  const Character character = motion::character_of(clip);
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   std::vector<FrameDemand> demands;
   for (int t = 1; t + 1 < poses.count(); ++t)
@@ -68,7 +66,7 @@ PerBody<double> torque_ratios(const Character& character, const BodyPoses& poses
 
 Feasibility feasibility(const motion::Clip& clip) {
   const std::vector<FrameDemand> demands = motion_demands(clip);
-  const Character character = make_character(clip.betas);
+  const Character character = motion::character_of(clip);
   const std::vector<BodyPoses> poses = motion::poses_of(clip);
   const double weight = kGravity * character.total_mass(), n = static_cast<double>(demands.size());
   Feasibility summary;

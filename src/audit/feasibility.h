@@ -32,8 +32,8 @@ struct Touching {
   bool whole_body = false;  ///< every contact point of the character, not only those of the feet
 };
 
-/// Demands of the frames 1 … n − 2 of an exact motion on the character of its β.
-/// @throws std::invalid_argument for fewer than 3 frames or another body model
+/// Demands of the frames 1 … n − 2 of an exact motion on its own character (`motion::character_of`).
+/// @throws std::invalid_argument for fewer than 3 frames
 std::vector<FrameDemand> motion_demands(const motion::Clip& clip, const Touching& touching = {});
 
 /// |τ| over the limit of the joint; for a hinge the part about its axis. Entry 0 is 0.

@@ -12,6 +12,8 @@
 #include "core/temporary_folder.h"
 #include "files/archive_members.h"
 #include "files/inputs.h"
+#include "motion/clip_file.h"
+#include "motion/standing_clip.h"
 #include "program/configurations.h"
 #include "run/preparation.h"
 
@@ -311,6 +313,23 @@ TEST_F(CleanedAndRaw, NoisyTestMotionsFailAndTruthsPass) {
   for (const std::string& path :
        files::paths_of(files::find_motions({split("truth", "x").parent_path().string()})))
     EXPECT_EQ(all_failures(audit_file(path, false).at(0)), "") << path;
+}
+
+TEST_F(CleanedAndRaw, JointsOfTheFileAreThoseOfTheBodyThatIsJudged) {
+  const TemporaryFolder folder;
+  motion::Clip clip = motion::standing_clip(40);
+  const Character standard = motion::character_of(clip);
+  RestJoints joints{};
+  for (int i = 0; i < kBodies; ++i)
+    joints[i] = 1.15 * standard.joint_offset[i] + (i == 0 ? Vector3d::Zero() : joints[kParents[i]]);
+  motion::Clip large = clip;
+  large.rest_joints = joints;
+  const Vector3d lift(0.0, 0.0, 0.15 * motion::poses_of(clip)[0].p_WB[0].z());
+  for (Vector3d& trans : large.trans) trans += lift + motion::rest_pelvis(clip) - motion::rest_pelvis(large);
+  motion::write_clip(folder.path / "large.npz", large);
+  const Audit by_motion = audit_file(folder.path / "large.npz", false).at(0);
+  EXPECT_NEAR(by_motion.weight, 9.81 * motion::character_of(large).total_mass(), 0.5);
+  EXPECT_EQ(all_failures(by_motion), "");
 }
 
 TEST_F(CleanedAndRaw, RejectsIncompleteForcesByName) {
