@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npz.h"
 #include "core/random.h"
@@ -346,6 +347,30 @@ TEST(ForceComparison, PrintsTheTableOfTheStudyInPython) {
   for (std::string theirs, mine; std::getline(file, theirs) && std::getline(ours, mine); ++lines)
     EXPECT_EQ(without_moments(mine.substr(0, theirs.size())), without_moments(theirs));
   EXPECT_EQ(lines, 4) << "head, two trials, means";
+}
+
+TEST(ForceFiles, OfOneNameThatOfTheGroundForcesCounts) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path / "data");
+  std::filesystem::create_directories(folder.path / "motions");
+  motion::write_clip(folder.path / "motions" / "other.npz", motion::standing_clip(10));
+  for (const char* name : {"sit", "walk"})
+    for (const char* end : {".mot", "_grf.mot"})
+      std::ofstream(folder.path / "data" / (std::string(name) + end)) << "nothing";
+  const ForceTable table = evaluate_forces(folder.path / "data", folder.path / "motions", NAN);
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (const ForceRow& row : table.rows)
+    EXPECT_NE(row.reason.find(row.name + "_grf.mot"), std::string::npos) << row.reason;
+  std::ofstream(folder.path / "data" / "walk_grf.npz") << "nothing";
+  try {
+    evaluate_forces(folder.path / "data", folder.path / "motions", NAN);
+    FAIL() << "two measurements of one name";
+  } catch (const DataError& error) {
+    const std::string said = error.what();
+    EXPECT_TRUE(said.find("walk_grf.mot") != std::string::npos &&
+                said.find("walk_grf.npz") != std::string::npos)
+        << said;
+  }
 }
 
 }  // namespace

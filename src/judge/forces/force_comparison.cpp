@@ -369,14 +369,20 @@ ComparedForces common_frames(const audit::SimulatedFrames& motion, const import:
 
 bool is_inverse_dynamics(const std::filesystem::path& file) { return import::lower_suffix(file) == ".sto"; }
 
-/// Measurements of a folder, or the single file, by name.
+/// Measurements of a folder, or the single file, by name. `NAME_grf` goes before `NAME`, which in OpenSim's
+/// folders has the joints' angles. @throws DataError of two others of one name
 std::map<std::string, std::filesystem::path> named_measurements(const std::filesystem::path& path) {
   std::map<std::string, std::filesystem::path> named;
   const auto add = [&](const std::filesystem::path& file) {
     std::string name = file.stem().string();
     for (const std::string_view end : {"_grf", "_ID"})
       if (name.ends_with(end)) name.resize(name.size() - end.size());
-    named[name] = file;
+    const auto [other, first] = named.emplace(name, file);
+    if (first) return;
+    const bool plain = file.stem() == name, other_plain = other->second.stem() == name;
+    if (plain == other_plain)
+      throw DataError(file.string(), "", "one measurement of " + name, other->second.string() + ", too");
+    if (other_plain) other->second = file;
   };
   if (!std::filesystem::is_directory(path)) {
     add(path);
