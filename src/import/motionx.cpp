@@ -75,6 +75,22 @@ void settle_unit(motion::Clip& clip) {
                            short_number(after) + "; --scale overrides)");
 }
 
+std::vector<std::size_t> shape_of(Index rows, Index columns) {
+  return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)};
+}
+
+/// Puts jaw and hands of the columns of `poses` behind the body into their places: of SMPL-X, where eyes,
+/// which Motion-X does not have, are between them; of SMPL-H hands alone.
+void put_rest(const NpyArray& rest, MatrixXd& values) {
+  constexpr Columns hands = kParts[0], jaw = kParts[1];
+  constexpr Index eyes = 6;
+  const bool smplx = rest.shape == shape_of(values.rows(), jaw.columns + eyes + hands.columns);
+  if (!smplx && rest.shape != shape_of(values.rows(), hands.columns)) return;
+  const MatrixXd columns = to_matrix(rest);
+  if (smplx) values.middleCols(jaw.first, jaw.columns) = columns.leftCols(jaw.columns);
+  values.middleCols(hands.first, hands.columns) = columns.rightCols(hands.columns);
+}
+
 }  // namespace
 
 motion::Clip motionx_from(const NpyArray& array, const std::string& name, const std::string& path,
@@ -118,14 +134,12 @@ NpyArray to_motionx(const motion::Clip& clip) {
     values.row(t).segment<3>(kTrans) = out.trans[t];
     for (std::size_t k = 0; k < kBetas; ++k) values(t, kBetaColumns + static_cast<Index>(k)) = out.betas[k];
   }
+  for (const auto& [name, array] : clip.passthrough)
+    if (name == "poses_rest") put_rest(array, values);
   for (const Columns& part : kParts)
-    for (const auto& [name, array] : clip.passthrough) {
-      const bool smplh_hands = name == "poses_rest" && part.name == std::string("pose_hand");
-      const std::vector<std::size_t> shape = {static_cast<std::size_t>(out.frames()),
-                                              static_cast<std::size_t>(part.columns)};
-      if ((name == part.name || smplh_hands) && array.shape == shape)
+    for (const auto& [name, array] : clip.passthrough)
+      if (name == part.name && array.shape == shape_of(values.rows(), part.columns))
         values.middleCols(part.first, part.columns) = to_matrix(array);
-    }
   return from_matrix(values);
 }
 
