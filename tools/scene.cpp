@@ -5,6 +5,7 @@
 #include "audit/scene_search.h"
 #include "commands.h"
 #include "files/scene_file.h"
+#include "import/world_transform.h"
 #include "record/json.h"
 #include "record/outputs.h"
 #include "run/preparation.h"
@@ -25,8 +26,9 @@ int scene(const SceneArguments& a) {
   if (a.read.scene) throw UsageError("scene: it finds the scene; leave out --scene");
   record::Outputs outputs({a.input.string()}, a.force);
   if (!is_standard_output(a.out)) outputs.claim(a.out, record::kJsonOpening);
-  const motion::Clip clip = import::read_motion(a.input, a.read);
+  motion::Clip clip = import::read_motion(a.input, a.read);
   run::tell_decisions(a.input.string(), clip, std::cerr);
+  import::shift_world(-clip.place, clip);  // --scene has plates in the world of the file
   audit::FoundScene found;
   found.scene = clip.scene;
   for (const Plate& plate : clip.scene.plates) {

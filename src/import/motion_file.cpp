@@ -223,7 +223,7 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
       "scene: " + counted(clip.scene.plates.count(), "plate") + " up to " + short_number(highest) + " m";
   const double lift = believed || o.floor ? 0.0 : scene_lift(clip);
   if (lift != 0.0) {
-    for (Vector3d& trans : clip.trans) trans.z() += lift;
+    shift_world({0.0, 0.0, lift}, clip);
     said += "; the motion is moved " + short_number(std::abs(lift)) + " m " + (lift < 0.0 ? "down" : "up") +
             " onto it";
   }
@@ -234,11 +234,11 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
 /// The simulation has single precision, which resolves 2 mm at 20 km. A motion that begins far from the
 /// origin is moved there, by a multiple of 100 m: motions that belong together stay together.
 void settle_place(motion::Clip& clip) {
-  if (!clip.scene.flat()) return;  // its boxes are at places of the file
   const Vector3d hundreds = (clip.trans.front() / kMove).array().round();
   const Vector3d shift(0.0 - kMove * hundreds.x(), 0.0 - kMove * hundreds.y(), 0.0);  // not -0
   if (shift.isZero(0.0)) return;
   shift_world(shift, clip);
+  clip.place = shift;
   clip.decide(formatted("place: moved by (%.0f, %.0f) m to the origin", shift.x(), shift.y()));
 }
 

@@ -39,7 +39,8 @@ struct ReadConfig {
   std::optional<int> person;  ///< of an npz with several people, from 1
   bool verbose = false;       ///< print all decisions instead of a summary
 
-  /// All settings that differ from the default, in one line. Equal lines mean that files are read alike.
+  /// All settings that differ from the default, in one line. Equal lines mean that files are read alike, if
+  /// the files that they name are the same.
   std::string text() const;
 };
 

@@ -39,6 +39,7 @@ void scale_world(double scale, motion::Clip& clip) {
 
 void shift_world(const Vector3d& shift, motion::Clip& clip) {
   for (Vector3d& trans : clip.trans) trans += shift;
+  for (Plate& plate : clip.scene.plates) plate.centre += shift.head<2>();
   Eigen::Matrix4d change = Eigen::Matrix4d::Identity();
   change.topRightCorner<3, 1>() = shift;
   move_cameras(change, clip);

@@ -18,7 +18,7 @@ void rotate_world(const Quaterniond& R, motion::Clip& clip);
 /// @param scale  m per unit
 void scale_world(double scale, motion::Clip& clip);
 
-/// p → p + shift (m).
+/// p → p + shift (m). Plates stand on the floor z = 0 as before.
 void shift_world(const Vector3d& shift, motion::Clip& clip);
 
 /// The rotation that takes an axis to z: 'x', 'y', 'z', or 'X', 'Y', 'Z' for the negative ones.

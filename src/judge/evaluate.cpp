@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "files/inputs.h"
+#include "import/world_transform.h"
 #include "judge/force_metrics.h"
 #include "judge/scores.h"
 #include "record/json.h"
@@ -28,12 +29,11 @@ void share_scene(motion::Clip& a, motion::Clip& b) {
 /// Motions that begin far from the origin were moved there by multiples of 100 m (import/motion_file.h), each
 /// by its own. The motion is moved on by such a multiple, to where it begins nearest to the truth.
 void meet(motion::Clip& clip, const motion::Clip& known) {
-  if (clip.trans.empty() || known.trans.empty() || !known.scene.flat()) return;
+  if (clip.trans.empty() || known.trans.empty()) return;
   Vector3d apart = clip.trans.front() - known.trans.front();
   apart.z() = 0.0;
   const Vector3d shift = import::kMove * Vector3d((apart / import::kMove).array().round());
-  if (shift.isZero(0.0)) return;
-  for (Vector3d& p : clip.trans) p -= shift;
+  if (!shift.isZero(0.0)) import::shift_world(-shift, clip);
 }
 
 /// A motion and its truth on their scenes. @throws DataError
@@ -42,8 +42,8 @@ std::pair<motion::Clip, motion::Clip> read_clips(const Pair& pair, const import:
   if (pair.truth.empty())
     throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
   motion::Clip known = import::read_motion(pair.truth, read);
-  share_scene(clip, known);
   meet(clip, known);
+  share_scene(clip, known);
   return {std::move(clip), std::move(known)};
 }
 

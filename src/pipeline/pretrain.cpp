@@ -14,6 +14,7 @@
 #include "record/json.h"
 #include "record/run_folder.h"
 #include "record/utf8_names.h"
+#include "run/preparation.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -76,7 +77,7 @@ record::Json pretraining_record(const PretrainConfig& config, const std::vector<
           {"seed", config.training.seed},
           {"samples", config.training.samples},
           {"settings", settings_json(config)},
-          {"reading", record::to_utf8(config.read.text())},
+          {"reading", record::to_utf8(run::reading_of(config.read))},
           {"inputs", inputs}};
 }
 

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "audit/scene_search.h"
 #include "core/number_text.h"
 #include "fit/keypoint_fit.h"
 #include "fit/pose_fit.h"
+#include "import/world_transform.h"
 #include "motion/prepare/prepare.h"
+#include "record/run_folder.h"
 
 namespace mimicx::run {
 namespace {
@@ -58,7 +59,7 @@ motion::PreparationConfig preparing(const CorrectionConfig& correction) {
 
 /// Finds the scene of a motion that was read on the flat floor, tells it, and reads the motion again on it.
 void put_on_found_scene(const std::filesystem::path& path, import::ReadConfig read, motion::Clip& clip) {
-  const audit::FoundScene found = audit::find_scene(clip);
+  const audit::FoundScene found = find_scene_of_file(clip);
   read.scene = found.scene;
   if (!found.scene.flat()) clip = import::read_motion(path, read);
   std::vector<std::string> words = found.words;
@@ -100,6 +101,18 @@ void note_floor(PreparedMotion& motion) {
 }
 
 }  // namespace
+
+std::string reading_of(const import::ReadConfig& read) {
+  std::string text = read.text();
+  for (const std::filesystem::path& file : {read.smplx, read.joint_map})
+    if (!file.empty()) text += ' ' + record::checksum_or_none(file);
+  return text;
+}
+
+audit::FoundScene find_scene_of_file(motion::Clip clip) {
+  if (!clip.place.isZero(0.0)) import::shift_world(-clip.place, clip);
+  return audit::find_scene(clip);
+}
 
 NamedValues settings_of(const CorrectionConfig& correction) {
   const bool fitted = correction.fits_keypoints();

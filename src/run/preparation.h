@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "audit/scene_search.h"
 #include "core/named_values.h"
 #include "import/motion_file.h"
 #include "motion/reference.h"
@@ -55,6 +56,13 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
 PreparedMotion prepare_motion(motion::Clip input, const std::filesystem::path& path,
                               const import::ReadConfig& read, const CorrectionConfig& correction,
                               int threads = 1);
+
+/// All that decides how files are read, as manifests record it: `ReadConfig::text`, and the checksums of the
+/// files that it names.
+std::string reading_of(const import::ReadConfig& read);
+
+/// `audit::find_scene` in the world of the file, from which reading may have moved the motion.
+audit::FoundScene find_scene_of_file(motion::Clip clip);
 
 /// Prints `import::told_decisions`.
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);

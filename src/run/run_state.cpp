@@ -5,6 +5,7 @@
 
 #include "core/bits.h"
 #include "core/file.h"
+#include "run/preparation.h"
 #include "run/run_outputs.h"
 
 namespace mimicx::run {
@@ -19,7 +20,7 @@ record::Manifest manifest_of(const RunConfig& config, const Method& method) {
   manifest.method = method.name;
   manifest.settings = method.settings;
   manifest.options = method.options;
-  manifest.reading = config.read.text();
+  manifest.reading = reading_of(config.read);
   return manifest;
 }
 

@@ -264,8 +264,35 @@ TEST(ReadMotion, MovesMotionsFarFromTheOriginThereByHundredsOfMetres) {
   EXPECT_FALSE(decided(written_and_read(near), "place"));
   for (int t = 0; t < near.frames(); ++t) EXPECT_LT((back.trans[t] - near.trans[t]).norm(), 1e-9) << t;
   ReadConfig on_boxes;  // at places of the file
-  on_boxes.scene = Scene{{{{22000.0, -300.0}, 0.0, {3.0, 3.0}, 0.01}}};
-  EXPECT_FALSE(decided(written_and_read(far, on_boxes), "place"));
+  on_boxes.scene = Scene{{{{22000.5, -299.0}, 0.0, {3.0, 3.0}, 0.01}}};
+  const motion::Clip boxes = written_and_read(far, on_boxes);
+  EXPECT_TRUE(decided(boxes, "place"));
+  EXPECT_EQ(boxes.place, -away);
+  EXPECT_EQ(boxes.scene.plates[0].centre, Eigen::Vector2d(0.5, 1.0)) << "plates move with the motion";
+}
+
+TEST(ReadMotion, CamerasAreLiftedOntoASceneWithTheMotion) {
+  motion::Clip clip = foreign("walk");
+  motion::Keypoints k;
+  k.names = {"pelvis"};
+  k.uvc = PerFrame<std::vector<Vector3d>>(clip.frames(), {Vector3d(500.0, 500.0, 1.0)});
+  k.intrinsics << 1000.0, 0.0, 500.0, 0.0, 1000.0, 500.0, 0.0, 0.0, 1.0;
+  Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();
+  camera.topLeftCorner<3, 3>() << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // looks along y
+  camera(2, 3) = 6.0;
+  k.extrinsics = {camera};
+  clip.keypoints = k;
+  shift_world({0.0, 0.0, -1.5}, clip);
+  ReadConfig on_boxes;
+  on_boxes.scene = Scene{{{{0.0, 0.0}, 0.0, {30.0, 30.0}, 0.3}}};
+  const motion::Clip lifted = written_and_read(clip, on_boxes);
+  ASSERT_TRUE(decided(lifted, "scene: 1 plate up to 0.3 m; the motion is moved"));
+  const Vector3d before = motion::poses_of(clip)[0].p_WB[0], after = motion::poses_of(lifted)[0].p_WB[0];
+  EXPECT_GT(after.z() - before.z(), 1.0);
+  EXPECT_LT((lifted.keypoints->extrinsics[0] * after.homogeneous() -
+             clip.keypoints->extrinsics[0] * before.homogeneous())
+                .norm(),
+            1e-6);
 }
 
 TEST(ReadMotion, TrustsOurOwnFiles) {
@@ -342,6 +369,19 @@ TEST(World, RotationTurnsEveryJointAndEveryCamera) {
         const Eigen::Vector4d seen = turned.keypoints->extrinsics[0] * after[t].p_WB[j].homogeneous();
         EXPECT_LT((seen - clip.keypoints->extrinsics[0] * before[t].p_WB[j].homogeneous()).norm(), 1e-12);
       }
+  }
+}
+
+TEST(Motionx, KeepsJawAndHandsOfPosesInOneArray) {
+  motion::Clip clip = test::random_clip(7, 6, 0.6);
+  for (const Eigen::Index columns : {99, 90}) {  // SMPL-X: jaw, eyes, hands; SMPL-H: hands
+    const Eigen::MatrixXd rest = Eigen::MatrixXd::Random(clip.frames(), columns);
+    clip.passthrough = {{"poses_rest", from_matrix(rest)}};
+    const Eigen::MatrixXd values = to_matrix(to_motionx(clip));
+    EXPECT_EQ(values.middleCols(66, 90), rest.rightCols(90));
+    Eigen::MatrixXd jaw = Eigen::MatrixXd::Zero(clip.frames(), 3);
+    if (columns == 99) jaw = rest.leftCols(3);
+    EXPECT_EQ(values.middleCols(156, 3), jaw);
   }
 }
 

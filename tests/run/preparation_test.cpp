@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <optional>
 
 #include "core/temporary_folder.h"
 #include "core/units.h"
+#include "import/world_transform.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/stance.h"
@@ -163,6 +165,45 @@ TEST(Preparation, FoundStepsLieUnderTheFittedFeet) {
     }
     EXPECT_GT(standing, 5) << "step of " << plate.height;
   }
+}
+
+TEST(Preparation, FarFromTheOriginTheSameStepsAreFound) {
+  const TemporaryFolder folder;
+  const std::filesystem::path near = folder.path / "near.npz", far = folder.path / "far.npz";
+  motion::Clip clip = motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) /
+                                        "data/synthetic/scenes/truth/stairs_up_1.npz");
+  clip.scene = {};
+  motion::write_clip(near, clip);
+  const Vector3d away(250.0, -500.0, 0.0);
+  import::shift_world(away, clip);
+  motion::write_clip(far, clip);
+  import::ReadConfig read;
+  read.scene_from_motion = true;
+  const PreparedMotion here = prepare_motion(near, read, {.as_is = true}),
+                       there = prepare_motion(far, read, {.as_is = true});
+  const Vector3d moved = there.input.place + away;
+  EXPECT_LT(there.input.trans[0].norm(), 51.0);
+  ASSERT_GE(here.input.scene.plates.size(), 3u);
+  ASSERT_EQ(there.input.scene.plates.size(), here.input.scene.plates.size());
+  for (std::size_t k = 0; k < here.input.scene.plates.size(); ++k) {
+    const Plate &a = here.input.scene.plates[k], &b = there.input.scene.plates[k];
+    EXPECT_LT((a.centre + moved.head<2>() - b.centre).norm(), 1e-6);
+    EXPECT_NEAR(a.height, b.height, 1e-6);
+  }
+  for (int t = 0; t < clip.frames(); ++t)
+    EXPECT_LT((here.input.trans[t] + moved - there.input.trans[t]).norm(), 1e-6) << t;
+}
+
+TEST(Preparation, ReadingIsAnotherWhereTheNamedFileIs) {
+  const TemporaryFolder folder;
+  import::ReadConfig read;
+  EXPECT_EQ(reading_of(read), "");
+  read.joint_map = folder.path / "map.txt";
+  std::ofstream(read.joint_map) << "left_ankle = q4\n";
+  const std::string before = reading_of(read);
+  EXPECT_EQ(reading_of(read), before);
+  std::ofstream(read.joint_map) << "left_ankle = q3\n";
+  EXPECT_NE(reading_of(read), before);
 }
 
 }  // namespace

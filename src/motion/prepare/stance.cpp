@@ -78,7 +78,7 @@ PerFrame<bool> carried(const Character& character, const PerFrame<BodyPoses>& po
   for (int j = -m; j <= m; ++j) norm += j * j * (j * j - mean);
   for (int t = 0; t < frames; ++t) {
     double second = 0.0;
-    const int middle = std::clamp(t, std::min(m, frames - 1), std::max(frames - 1 - m, 0));
+    const int middle = frames > 2 * m ? std::clamp(t, m, frames - 1 - m) : (frames - 1) / 2;
     for (int j = -m; j <= m; ++j) second += (j * j - mean) * z[std::clamp(middle + j, 0, frames - 1)];
     const double acceleration = 2.0 * second / norm * fps * fps;
     out[t] = acceleration > -kFlight * kGravity;
