@@ -19,13 +19,14 @@ Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in 
 camera, but where the motion is in the world (y up) and where in front of the camera. What takes one to the other is the
 camera of a frame, with all errors of both; the keypoint fit needs better. --static makes one camera of all frames,
 --slam lays the camera's path, which the estimators leave beside their results, through them; --moving takes them as
-they are. TRAM and PromptHMR tell their camera. WHAM keeps no focal length: --size gives the picture's diagonal, which
+they are. TRAM, PromptHMR and SLAHMR tell their camera. WHAM keeps no focal length: --size gives the picture's diagonal, which
 is what it assumes. ROMP, PHALP, Multi-HMR and SAM 3D Body tell places in front of the camera alone: it is taken to
 stand level and still.
 """
 import argparse
 import glob
 import os
+import re
 import sys
 
 import numpy as np
@@ -91,8 +92,9 @@ def read(path, what):
 class Track:
     """One person: rotation vectors (T, 3J) and pelvis (T, 3) in the world (y up), and in front of the camera."""
 
-    def __init__(self, model, pose, root_camera, pelvis, pelvis_camera, betas, intrinsics=None, frames=None):
-        self.model, self.intrinsics = model, intrinsics
+    def __init__(self, model, pose, root_camera, pelvis, pelvis_camera, betas, intrinsics=None, frames=None,
+                 tells_camera=False):
+        self.model, self.intrinsics, self.tells_camera = model, intrinsics, tells_camera
         self.pose, self.root_camera, self.pelvis, self.pelvis_camera = (
             np.asarray(x, float) for x in (pose, root_camera, pelvis, pelvis_camera))
         self.betas = np.asarray(betas, float).reshape(-1, np.shape(betas)[-1])
@@ -152,7 +154,7 @@ def tram(data, camera):
     focal, (u, v) = float(camera["img_focal"]), np.asarray(camera["img_center"], float).reshape(2)
     return Track("smpl", pose, vectors(rotations[:, 0]), np.einsum("tij,tj->ti", turn, pelvis) + place, pelvis,
                  np.asarray(data["pred_shape"], float).mean(0), np.array([[focal, 0, u], [0, focal, v], [0, 0, 1]]),
-                 frames)
+                 frames, tells_camera=True)
 
 
 def phc(data):
@@ -198,31 +200,49 @@ def prompthmr(data):
             focal, center = float(np.ravel(calibration["img_focal"])[0]), np.ravel(calibration["img_center"])
             intrinsics = np.array([[focal, 0, center[0]], [0, focal, center[1]], [0, 0, 1]])
         out[name] = Track("smplx", world["pose"], np.asarray(camera["pose"])[:, :3], world["trans"] + J0["smplx"],
-                          camera["trans"] + J0["smplx"], world["shape"], intrinsics, person.get("frames"))
+                          camera["trans"] + J0["smplx"], world["shape"], intrinsics, person.get("frames"),
+                          tells_camera="smplx_cam" in person)
     return out
 
 
 def slahmr(data):
     """{person: Track}. SMPL-H, (P, T, ...), in the world of the first camera; the floor plane, where there is one,
-    tells up, else the camera's y axis points down."""
+    tells up, else the camera's y axis points down. track_mask (P, T): in which frames a person is there, all is 0 in the
+    others. cam_R, cam_t: from that world to the camera of a frame; intrins: its focal lengths and centre."""
     trans = np.asarray(data["trans"], float)
     people, frames = trans.shape[:2]
+    there = np.reshape(data.get("track_mask", np.ones((people, frames))), (people, frames)) > 0
     pose = np.concatenate([np.reshape(data["root_orient"], (people, frames, 3)),
                            np.reshape(data["pose_body"], (people, frames, -1))], 2).astype(float)
     turn = DOWN_TO_UP
     if "floor_plane" in data and np.size(data["floor_plane"]) >= 3:
         normal = np.ravel(data["floor_plane"])[:3] / np.linalg.norm(np.ravel(data["floor_plane"])[:3])
-        heads = np.einsum("tij,j->ti", matrices(pose[..., :3].reshape(-1, 3)), [0, 1.0, 0]).mean(0)
+        heads = np.einsum("tij,j->ti", matrices(pose[there][:, :3]), [0, 1.0, 0]).mean(0)
         normal = normal if normal @ heads > 0 else -normal
         side = np.cross(normal, [0, 0, 1.0])
         side /= np.linalg.norm(side)
         turn = np.stack([side, normal, np.cross(side, normal)])
+    to_camera, to_place = np.tile(np.eye(3), (people, frames, 1, 1)), np.zeros((people, frames, 3))
+    tells = "cam_R" in data and "cam_t" in data
+    if tells:
+        to_camera, to_place = (np.broadcast_to(np.asarray(data[key], float), like.shape)
+                               for key, like in (("cam_R", to_camera), ("cam_t", to_place)))
+    intrinsics = None
+    if "intrins" in data:
+        fx, fy, u, v = np.reshape(data["intrins"], (-1, 4))[0]
+        intrinsics = np.array([[fx, 0, u], [0, fy, v], [0, 0, 1]])
+    betas = np.reshape(data["betas"], (-1, np.shape(data["betas"])[-1])) if "betas" in data else np.zeros((1, 10))
     out = {}
     for p in range(people):
-        root, pelvis = turned(pose[p, :, :3], trans[p] + J0["smpl"], turn)
-        betas = np.reshape(data["betas"], (-1, np.shape(data["betas"])[-1])) if "betas" in data else np.zeros((1, 10))
-        out[p + 1] = Track("smplh", np.hstack([root, pose[p, :, 3:66]]), pose[p, :, :3], pelvis, trans[p] + J0["smpl"],
-                           betas[min(p, len(betas) - 1)])
+        rows = np.flatnonzero(there[p])
+        if not len(rows):
+            continue
+        place = trans[p, rows] + J0["smpl"]
+        root, pelvis = turned(pose[p, rows, :3], place, turn)
+        root_camera = vectors(to_camera[p, rows] @ matrices(pose[p, rows, :3]))
+        pelvis_camera = np.einsum("tij,tj->ti", to_camera[p, rows], place) + to_place[p, rows]
+        out[p + 1] = Track("smplh", np.hstack([root, pose[p, rows, 3:66]]), root_camera, pelvis, pelvis_camera,
+                           betas[min(p, len(betas) - 1)], intrinsics, rows, tells_camera=tells)
     return out
 
 
@@ -261,9 +281,31 @@ def followed(seen):
     return out
 
 
-def romp(data):
+def numbered(names):
+    """[(frame, name)] in the order of the frames. Names that are numbers, or files that have one, are those of frames
+    (from 1 on where the first is 1); other names count in their order."""
+    def number(name):
+        found = re.findall(r"\d+", os.path.splitext(os.path.basename(str(name)))[0])
+        return int(found[-1]) if found else None
+
+    numbers = {name: number(name) for name in names}
+    if None in numbers.values() or len(set(numbers.values())) < len(numbers):
+        return list(enumerate(sorted(names)))
+    files = any(isinstance(name, str) for name in names)
+    begin = 1 if files and min(numbers.values(), default=0) == 1 else 0
+    return sorted((n - begin, name) for name, n in numbers.items())
+
+
+def to_diagonal(place, size):
+    """Brings the depth of a camera whose focal length is the picture's longer side to that of its diagonal, which is
+    nearer to real ones."""
+    return place * [1.0, 1.0, np.hypot(*size) / max(size)] if size is not None else place
+
+
+def romp(data, size):
     """{person: Track} of a video's frames, {name: arrays of its people}, or lists of people; the names are those of
-    simple-romp and of ROMP's first version. People without track_ids are followed."""
+    simple-romp and of ROMP's first version. People without track_ids are followed. Places are those of a camera whose
+    focal length is the picture's longer side."""
     def together(people):
         """The arrays of a frame's people, where each stands for itself."""
         if isinstance(people, dict):
@@ -272,12 +314,12 @@ def romp(data):
 
     frames_people = {name: together(people) for name, people in data.items()}
     seen, named = {}, all("track_ids" in one for one in frames_people.values() if one)
-    for frame, name in enumerate(sorted(frames_people)):
+    for frame, name in numbered(frames_people):
         one = frames_people[name]
         if not one:
             continue
         thetas = np.asarray(one.get("smpl_thetas", one.get("poses")), float).reshape(-1, 72)
-        places = np.asarray(one.get("cam_trans", one.get("trans")), float).reshape(-1, 3)
+        places = to_diagonal(np.asarray(one.get("cam_trans", one.get("trans")), float).reshape(-1, 3), size)
         betas = np.asarray(one.get("smpl_betas", one.get("betas")), float).reshape(len(thetas), -1)[:, :10]
         ids = np.ravel(one["track_ids"]) if named else [None] * len(thetas)
         seen[frame] = [(places[k], (ids[k], thetas[k], places[k], betas[k])) for k in range(len(thetas))]
@@ -295,12 +337,15 @@ def romp(data):
 
 def phalp(data, size):
     """{person: Track} of {frame: lists by person}. The place is that of a camera of 5000/256 of the picture's longer
-    side as focal length: the depth is brought to that of the picture's diagonal, which is nearer to real ones."""
+    side as focal length. A person who is not seen (tracked_time > 0) stands there as last seen: left out."""
     rows = {}
-    for frame, name in enumerate(sorted(data)):
+    for frame, name in numbered(data):
         one = data[name]
-        ids = one.get("tid", one.get("tracked_ids", []))
-        for k, person in enumerate(np.ravel(ids).astype(int).tolist()):
+        ids = np.ravel(one.get("tid", one.get("tracked_ids", []))).astype(int).tolist()
+        unseen = np.ravel(one.get("tracked_time", np.zeros(len(ids))))
+        for k, person in enumerate(ids):
+            if unseen[k] > 0:
+                continue
             body, place = one["smpl"][k], np.asarray(one["camera"][k], float).reshape(3)
             if not isinstance(body, dict):
                 continue
@@ -308,8 +353,7 @@ def phalp(data, size):
             if picture is not None and len(picture) and np.ndim(picture[0]):
                 picture = picture[k]
             if size or picture is not None and np.size(picture) == 2:
-                w, h = size or (picture[1], picture[0])
-                place[2] *= np.hypot(w, h) / (5000 / 256 * max(w, h))
+                place = to_diagonal(place / [1.0, 1.0, 5000 / 256], size or picture)
             turns = np.concatenate([np.reshape(body[part], (-1, 3, 3)) for part in ("global_orient", "body_pose")])
             rows.setdefault(person, []).append((frame, vectors(turns).reshape(-1), place, np.ravel(body["betas"])[:10]))
     return {person: before_camera("smpl", np.stack([r[1] for r in seen]), np.stack([r[2] for r in seen]) + J0["smpl"],
@@ -319,7 +363,7 @@ def phalp(data, size):
 
 def frames_of(data):
     """{frame: [people]} of a list of frames, or of a dictionary by frames; a single person may stand without a list."""
-    items = enumerate(data) if isinstance(data, list) else enumerate(data[k] for k in sorted(data))
+    items = enumerate(data) if isinstance(data, list) else [(frame, data[name]) for frame, name in numbered(data)]
     return {frame: list(one) if isinstance(one, (list, tuple)) else [one] for frame, one in items}
 
 
@@ -381,7 +425,7 @@ def unwrapped(data):
     inner = {name: one.item() if isinstance(one, np.ndarray) and one.dtype == object and one.ndim == 0 else one
              for name, one in data.items()}
     for name in ("outputs", "results"):
-        if set(inner) <= {name, "imgpaths"} and isinstance(inner.get(name), dict):
+        if set(inner) <= {name, "imgpaths", "sequence_results"} and isinstance(inner.get(name), dict):
             return inner[name]
     return inner
 
@@ -427,7 +471,7 @@ def tracks_of(path, size=None):
     if is_about(data, "pred_keypoints_3d", "pred_cam_t"):
         return checked(path, sam3d, data)
     if is_about(data, "smpl_thetas", "cam_trans") or is_about(data, "poses", "trans", "betas"):
-        return checked(path, romp, data)
+        return checked(path, lambda d: romp(d, size), data)
     if not data or not all(isinstance(one, dict) for one in data.values()):
         raise Wrong(path, RESULTS, kind_of(data))
     first = next(iter(data.values()))
@@ -472,13 +516,18 @@ def keypoints_of(path, data, person, frames):
 
 
 def slam_of(path, frames):
-    """Turns (T, 3, 3), camera to SLAM's world, and places (T, 3) up to a scale: DPVO's x y z, quaternion x y z w."""
-    expected, rows = "a camera's path (T, 7): place and quaternion x y z w", read(path, "a camera's path")
-    if np.ndim(rows) != 2 or np.shape(rows)[1] < 7:
+    """Turns (T, 3, 3), camera to SLAM's world, and places (T, 3) up to a scale: DPVO's x y z, quaternion x y z w.
+    GVHMR's SimpleVO has matrices (T, 4, 4), world to camera, and estimates their turns alone: no places."""
+    expected = "a camera's path: (T, 7), place and quaternion x y z w, or (T, 4, 4)"
+    rows = read(path, "a camera's path")
+    matrix = np.ndim(rows) == 3 and np.shape(rows)[1:] == (4, 4)
+    if not matrix and (np.ndim(rows) != 2 or np.shape(rows)[1] < 7):
         raise Wrong(path, expected, kind_of(rows))
     if len(rows) <= frames.max():
         raise Wrong(path, f"{expected} for {frames.max() + 1} frames", f"{len(rows)}")
     rows = np.asarray(rows, float)[frames]
+    if matrix:
+        return rows[:, :3, :3].transpose(0, 2, 1), None
     x, y, z, w = (rows[:, 3:7] / np.linalg.norm(rows[:, 3:7], axis=1, keepdims=True)).T
     half = np.arctan2(np.sqrt(x * x + y * y + z * z), w)
     return matrices(np.stack([x, y, z], 1) * (2 * half / np.maximum(np.sin(half), 1e-12))[:, None]), rows[:, :3]
@@ -489,10 +538,21 @@ def mean_turn(turns):
     return u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v
 
 
+def frame_by_frame(turn, pelvis, pelvis_camera):
+    """World to camera, (T, 4, 4): in every frame what puts the pelvis where it was estimated in front of it."""
+    out = np.tile(np.eye(4), (len(turn), 1, 1))
+    out[:, :3, :3] = turn
+    out[:, :3, 3] = pelvis_camera - np.einsum("tij,tj->ti", turn, pelvis)
+    return out
+
+
 def camera_path(turn, pelvis, pelvis_camera, slam_turn, slam_place):
     """World to camera, (T, 4, 4), by one turn, one scale and one place of SLAM's world in ours: those under which the
-    pelvis is where it was estimated in front of the camera, distances counted once, not squared (outliers)."""
+    pelvis is where it was estimated in front of the camera, distances counted once, not squared (outliers). Where SLAM
+    has no places, its turns alone."""
     whole = mean_turn(slam_turn @ turn)
+    if slam_place is None:
+        return frame_by_frame(slam_turn.transpose(0, 2, 1) @ whole, pelvis, pelvis_camera)
     gap = (np.einsum("ij,tj->ti", whole, pelvis) - np.einsum("tij,tj->ti", slam_turn, pelvis_camera)).reshape(-1)
     columns = np.hstack([slam_place.reshape(-1, 1), np.tile(np.eye(3), (len(turn), 1))])
     weight = np.ones(len(turn))
@@ -513,10 +573,7 @@ def cameras(turn, pelvis, pelvis_camera, frames, options):
         return camera_path(turn, pelvis, pelvis_camera, *still)[0]
     if options.slam:
         return camera_path(turn, pelvis, pelvis_camera, *slam_of(options.slam, frames))
-    out = np.tile(np.eye(4), (len(turn), 1, 1))
-    out[:, :3, :3] = turn
-    out[:, :3, 3] = pelvis_camera - np.einsum("tij,tj->ti", turn, pelvis)
-    return out
+    return frame_by_frame(turn, pelvis, pelvis_camera)
 
 
 def rate_of(track, options):
@@ -563,11 +620,15 @@ def files_of(results, base, options, parser):
     if options.person is not None:
         tracks = {person: track for person, track in tracks.items() if str(person) == options.person}
     data = read(options.keypoints, "keypoints (T, K, 3)") if options.keypoints else None
+    if data is not None and len(tracks) > 1 and (not isinstance(data, dict) or "keypoints" in data):
+        parser.error("--keypoints are of one person: --person " + " or ".join(str(person) for person in tracks))
     files = []
     for person, track in tracks.items():
         positions = isinstance(track, Positions)
         if options.keypoints and positions:
             parser.error("--keypoints are for results with SMPL's parameters")
+        if options.keypoints and not (options.static or options.slam or options.moving or track.tells_camera):
+            parser.error("--keypoints needs a camera: --static where it stood still, --slam FILE, or else --moving")
         points = keypoints_of(options.keypoints, data, person, track.frames) if options.keypoints else None
         intrinsics = intrinsics_of(track, options.size, parser) if options.keypoints else None
         assumed = "" if options.fps or getattr(track, "fps", None) else ", 30 fps assumed (--fps)"
@@ -611,8 +672,6 @@ def main():
     a = parser.parse_args()
     if a.keypoints and len(a.results) > 1:
         parser.error("--keypoints belong to one result")
-    if a.keypoints and not (a.static or a.slam or a.moving or os.path.isdir(a.results[0])):
-        parser.error("--keypoints needs a camera: --static where it stood still, --slam FILE, or else --moving")
     into_folder = len(a.results) > 1 or os.path.isdir(a.out)
     files = []
     for results in a.results:

@@ -48,6 +48,12 @@ def storage(content):
     return np.frombuffer(file.read(count * types[key].itemsize), types[key])
 
 
+def array_in_buffer(buffer, dtype, shape, order):
+    if dtype.hasobject:
+        raise pickle.UnpicklingError("an array of objects in a buffer")
+    return np.frombuffer(buffer, dtype).reshape(shape, order=order).copy()
+
+
 class Unpickler(pickle._Unpickler):  # the one in Python: joblib's arrays stand between the opcodes
     def __init__(self, file, storages=None):
         super().__init__(file)
@@ -58,6 +64,8 @@ class Unpickler(pickle._Unpickler):  # the one in Python: joblib's arrays stand 
             return getattr(getattr(np, "_core", None) or np.core, "multiarray").__dict__[name]
         known = {("numpy", "ndarray"): np.ndarray, ("numpy", "dtype"): np.dtype, ("builtins", "dict"): dict,
                  ("collections", "OrderedDict"): dict, ("collections", "defaultdict"): lambda *_: {},
+                 ("numpy.core.numeric", "_frombuffer"): array_in_buffer,
+                 ("numpy._core.numeric", "_frombuffer"): array_in_buffer,
                  ("_codecs", "encode"): lambda text, coding: text.encode("latin1"),
                  ("joblib.numpy_pickle", "NumpyArrayWrapper"): JoblibArray,
                  ("torch._utils", "_rebuild_tensor_v2"): tensor, ("torch.storage", "_load_from_bytes"): storage}

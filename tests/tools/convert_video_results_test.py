@@ -451,6 +451,44 @@ def check_slahmr():
     assert np.allclose(up, [rotation(r)[1, 1] for r in GLOBAL["global_orient"]], atol=1e-5), "heads over feet as before"
 
 
+def check_slahmr_of_people_who_come_and_go():
+    """Where track_mask is false, everything is 0: no pose, and no vote on where up is."""
+    world, _ = place(SMPL_J0)
+    down = (world + SMPL_J0) @ DOWN.T - SMPL_J0
+    mask = np.zeros((4, FRAMES), bool)  # the fourth never comes: most poses are none
+    mask[0], mask[1, 4:] = True, True
+    mask[2, 2:4] = True
+    one = {"trans": down, "root_orient": BELOW, "pose_body": GLOBAL["body_pose"]}
+    content = {key: np.stack([np.where(seen[:, None], value, 0) for seen in mask]) for key, value in one.items()}
+    np.savez("gone.npz", track_mask=mask, floor_plane=np.array([[0, -1.0, 0, 0]]), **content)
+    status, told, complaint = python_program.run(TOOL, "gone.npz", "gone_out.npz", "--shortest", "1")
+    assert status == 0, complaint
+    assert "person 2, frames 4 to 6" in told and "person 3, frames 2 to 3" in told, told
+    out = dict(np.load("gone_out_person2.npz"))
+    there, seen = (world + SMPL_J0)[4:], out["trans"] + SMPL_J0  # but for a turn about the vertical
+    assert np.allclose(seen[:, 2], there[:, 1], atol=1e-5), "height"
+    assert np.allclose(np.linalg.norm(seen - seen[0], axis=1), np.linalg.norm(there - there[0], axis=1), atol=1e-5)
+    up = np.array([rotation(r)[2, 1] for r in out["poses"][:, :3]])
+    assert np.allclose(up, [rotation(r)[1, 1] for r in GLOBAL["global_orient"][4:]], atol=1e-5)
+
+
+def check_slahmr_tells_its_camera():
+    """cam_R, cam_t: world to camera; intrins: focal lengths and centre."""
+    world, _ = place(SMPL_J0)
+    down = (world + SMPL_J0) @ DOWN.T - SMPL_J0
+    turns = np.array([rotation(np.array([0.02 * t + 0.1, 0.1, 0.0])) for t in range(FRAMES)])
+    places = np.linspace([0, 0, 1.0], [0.3, 0, 1.2], FRAMES)
+    np.savez("seen.npz", trans=down[None], root_orient=BELOW[None], pose_body=GLOBAL["body_pose"][None],
+             cam_R=turns[None], cam_t=places[None], intrins=np.array([1000.0, 1010.0, 960.0, 540.0]))
+    np.save("points.npy", POINTS)
+    status, complaint, out = convert("seen.npz", "--keypoints", "points.npy")
+    assert status == 0, complaint
+    expect_motion({k: v for k, v in out.items() if not k.startswith(("camera", "keypoint"))}, SMPL_J0)
+    assert np.allclose(out["camera_intrinsics"], [[1000, 0, 960], [0, 1010, 540], [0, 0, 1]])
+    seen = np.einsum("tij,tj->ti", out["camera_extrinsics"][:, :3, :3], out["trans"] + SMPL_J0) + out["camera_extrinsics"][:, :3, 3]
+    assert np.allclose(seen, np.einsum("tij,tj->ti", turns, down + SMPL_J0) + places, atol=1e-6)
+
+
 def check_trace():
     world, camera = place(SMPL_J0)
     outputs = {"smpl_thetas": np.hstack([BELOW, GLOBAL["body_pose"], np.zeros((FRAMES, 6))]), "cam_trans": camera,
@@ -465,6 +503,22 @@ def check_romp():
     frames = {f"{t:06d}.jpg": {"smpl_thetas": thetas[t:t + 1], "cam_trans": camera[t:t + 1], "smpl_betas": np.zeros((1, 10)),
                                "track_ids": np.array([7])} for t in range(FRAMES)}
     expect_motion(written({"results": np.array(frames, dtype=object)}, "romp.npz"), SMPL_J0)
+    both = {name: np.array(value, dtype=object) for name, value in (("results", frames), ("sequence_results", {}))}
+    expect_motion(written(both, "simple_romp.npz"), SMPL_J0)  # as simple-romp writes it
+    # Its depth is that of a focal length of the longer side, and brought to that of the diagonal.
+    np.save("points.npy", POINTS)
+    status, complaint, out = convert("romp.npz", "--keypoints", "points.npy", "--moving", "--size", "1920", "1080")
+    assert status == 0 and np.isclose(out["camera_intrinsics"][0, 0], np.hypot(1920, 1080)), complaint
+    seen = np.einsum("tij,tj->ti", out["camera_extrinsics"][:, :3, :3], out["trans"] + SMPL_J0) + out["camera_extrinsics"][:, :3, 3]
+    assert np.allclose(seen, camera * [1, 1, np.hypot(1920, 1080) / 1920] + SMPL_J0, atol=1e-5)
+    # Frames without a person have no entry.
+    holes = {name: one for t, (name, one) in enumerate(frames.items()) if t not in (2, 3)}
+    np.savez("holes.npz", results=np.array(holes, dtype=object))
+    status, told, complaint = python_program.run(TOOL, "holes.npz", "holes_out.npz", "--shortest", "1")
+    assert "frames 0 to 1" in told and "frames 4 to 6" in told, told + complaint
+    text = {str(9 + t): one for t, one in enumerate(frames.values())}  # "10" is before "9" in the alphabet
+    out = written({"results": np.array(text, dtype=object)}, "text.npz")
+    expect_motion(out, SMPL_J0)
 
 
 def check_phalp():
@@ -478,6 +532,12 @@ def check_phalp():
                   "body_pose": np.array([rotation(v) for v in GLOBAL["body_pose"][t].reshape(-1, 3)] + [np.eye(3)] * 2)}]}
         for t in range(FRAMES)}
     expect_motion(written(frames, "phalp.pkl"), SMPL_J0)
+    for t, one in enumerate(frames.values()):  # what is lost is kept as it was last seen
+        one["tracked_time"] = [max(0, t - 1) if t < 5 else 0]
+    with open("lost.pkl", "wb") as file:
+        pickle.dump(frames, file)
+    status, told, complaint = python_program.run(TOOL, "lost.pkl", "lost.npz", "--shortest", "1")
+    assert "frames 0 to 1" in told and "frames 5 to 6" in told, told + complaint
 
 
 def check_phc():
@@ -557,6 +617,48 @@ def check_many_results_and_nothing_overwritten():
         assert status == 2 and "frames per second" in complaint, (rate, complaint)
 
 
+def check_keypoints_belong_to_one_person():
+    world, _ = place(SMPL_J0)
+    down = (world + SMPL_J0) @ DOWN.T - SMPL_J0
+    np.savez("two.npz", trans=np.stack([down, down]), root_orient=np.stack([BELOW, BELOW]),
+             pose_body=np.stack([GLOBAL["body_pose"]] * 2))
+    np.save("points.npy", POINTS)
+    ask = TOOL, "two.npz", "two_out.npz", "--keypoints", "points.npy", "--static", "--size", "1920", "1080"
+    status, _, complaint = python_program.run(*ask)
+    assert status == 2 and "--person" in complaint and not os.path.exists("two_out_person1.npz"), complaint
+    status, _, complaint = python_program.run(*ask, "--person", "2")
+    assert status == 0, complaint
+
+
+def check_a_path_of_matrices():
+    """GVHMR's SimpleVO keeps (T, 4, 4), world to camera, of which only the turns are estimated."""
+    turns = np.array([rotation(np.array([0.02 * t + 0.1, 0.05 * t, 0.01])) for t in range(FRAMES)])
+    paths = np.tile(np.eye(4), (FRAMES, 1, 1))
+    paths[:, :3, :3] = turns
+    paths[:, :3, 3] = 7.0  # means nothing
+    np.save("path.npy", paths)
+    pelvis = GLOBAL["transl"] + J0
+    camera = pelvis @ Y_TO_Z.T  # in a z-up world
+    seen = np.einsum("tij,tj->ti", turns, camera) + [0.0, 0.0, 5.0]
+    incam = dict(GLOBAL, transl=seen - J0,
+                 global_orient=np.array([vector(turns[t] @ Y_TO_Z @ rotation(r)) for t, r in enumerate(GLOBAL["global_orient"])]))
+    with open("vo.pkl", "wb") as file:
+        pickle.dump({"smpl_params_global": GLOBAL, "smpl_params_incam": incam, "K_fullimg": np.tile(K, (FRAMES, 1, 1))}, file)
+    np.save("points.npy", POINTS)
+    status, complaint, out = convert("vo.pkl", "--keypoints", "points.npy", "--slam", "path.npy")
+    assert status == 0, complaint
+    assert np.allclose(out["camera_extrinsics"][:, :3, :3], turns, atol=1e-6)
+    assert np.allclose(out["camera_extrinsics"][:, :3, 3], [0.0, 0.0, 5.0], atol=1e-6)
+
+
+def check_every_protocol_of_pickle():
+    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        with open("protocol.pkl", "wb") as file:
+            pickle.dump(GVHMR, file, protocol)
+        status, complaint, out = convert("protocol.pkl")
+        assert status == 0 and np.allclose(out["poses"][:, 3:], GLOBAL["body_pose"], atol=1e-6), (protocol, complaint)
+
+
 def check_refusals():
     class Evil:
         def __reduce__(self):
@@ -578,7 +680,9 @@ def check_refusals():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for check in (check_plain_pickle, check_compressed_pickles, check_torch_zip, check_joblib, check_several_people, check_tram,
-                  check_a_static_camera, check_a_camera_path, check_gem, check_prompthmr, check_slahmr, check_trace, check_romp,
+                  check_a_static_camera, check_a_camera_path, check_gem, check_prompthmr, check_slahmr, check_slahmr_of_people_who_come_and_go,
+                  check_slahmr_tells_its_camera, check_trace, check_romp, check_keypoints_belong_to_one_person,
+                  check_a_path_of_matrices, check_every_protocol_of_pickle,
                   check_phalp, check_phc, check_aist_and_vibe, check_multihmr, check_positions_of_mdm_and_sam3d,
                   check_many_results_and_nothing_overwritten, check_which_file_is_wrong_and_how, check_refusals):
         check()
