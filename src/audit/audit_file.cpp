@@ -3,6 +3,7 @@
 #include "audit/audit_summary.h"
 #include "core/number_text.h"
 #include "files/archive_members.h"
+#include "files/recorded_forces.h"
 #include "motion/clip_file.h"
 #include "record/json.h"
 
@@ -82,9 +83,12 @@ std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::
       const SubstepMotion motion = read_substeps(npz);
       return {audit_steps(motion), audit_replayed_steps(motion)};
     }
-    if (forces)
-      return {audit_frames(simulated_frames(motion::clip_from(npz, path.stem().string()), npz),
-                           physics::SimulationConfig{})};
+    if (forces) {
+      const motion::Clip clip = motion::clip_from(npz, path.stem().string());
+      physics::SimulationConfig simulation;
+      simulation.gravity = files::recorded_gravity(clip);
+      return {audit_frames(simulated_frames(clip, npz), simulation)};
+    }
   }
   const motion::Clip clip = import::motion_from(bytes, path, read);
   if (clip.frames() < 3)

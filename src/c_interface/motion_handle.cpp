@@ -17,6 +17,7 @@
 #include "core/setting.h"
 #include "files/clean_copy.h"
 #include "files/exchange/exchange_file.h"
+#include "files/recorded_forces.h"
 #include "files/scene_file.h"
 #include "motion/clip_file.h"
 #include "record/json.h"
@@ -164,7 +165,9 @@ void Motion::read(std::string bytes, const std::string& name) {
   const std::string file = std::filesystem::path(name).filename().string();
   if (file.empty() || file == "." || file == "..")
     throw std::invalid_argument("expected the name of a file, found '" + name + "'");
-  Npz archive = motion::to_npz(import::motion_from(bytes, file, config_.run.read));
+  motion::Clip clip = import::motion_from(bytes, file, config_.run.read);
+  if (!config_.run.read.text().empty()) files::remove_recorded(clip);  // of another body, or in another world
+  Npz archive = motion::to_npz(clip);
   archive_ = std::move(archive);
   name_ = file;
   bytes_ = std::move(bytes);
@@ -238,10 +241,14 @@ std::string Motion::written(const std::string& suffix) {
                                 "'");
   const WorkingFolder folder;
   const std::filesystem::path file = folder / (std::filesystem::path(name_).stem().string() + suffix);
-  const motion::Clip clip =
-      import::motion_from(bytes_, name_, entry_ ? import::ReadConfig() : config_.run.read);
+  const import::ReadConfig read = entry_ ? import::ReadConfig() : config_.run.read;
+  motion::Clip clip = import::motion_from(bytes_, name_, read);
+  files::ExchangeConfig config;
+  if (!read.text().empty() && files::remove_recorded(clip))
+    config.forces_lost =
+        "one that is read with other options than it was simulated with (" + read.text() + ")";
   if (files::is_exchanged(file))
-    files::write_exchange(file, clip, name_, {});
+    files::write_exchange(file, clip, name_, config);
   else
     import::write_motion(file, clip);
   return read_file(file);

@@ -1,20 +1,27 @@
 #include "files/recorded_forces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "core/containers.h"
+#include "core/units.h"
 #include "files/archive_members.h"
 
 namespace mimicx::files {
 namespace {
 
-constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques";
-constexpr Array<std::string_view, 10> kRecorded = {
-    "joints",           "velocities",      "joint_torques",
-    "range_torques",    "ground_wrenches", "self_contact_wrenches",
-    "foot_force_least", "foot_force_most", "foot_force_least_effort",
-    "body_weight"};
+constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques", *kWeight = "body_weight";
+constexpr Array<std::string_view, 10> kRecorded = {"joints",
+                                                   "velocities",
+                                                   "joint_torques",
+                                                   "range_torques",
+                                                   "ground_wrenches",
+                                                   "self_contact_wrenches",
+                                                   "foot_force_least",
+                                                   "foot_force_most",
+                                                   "foot_force_least_effort",
+                                                   kWeight};
 
 }  // namespace
 
@@ -28,6 +35,16 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip) {
   const WrenchRows ground = read_wrenches(npz, kGround, rows);
   const VectorRows torques = read_joints(npz, kTorques, rows);
   return RecordedForces{{ground}, {torques}};
+}
+
+double recorded_gravity(const motion::Clip& clip) {
+  constexpr double kRounding = 1e-6;  // of the file's numbers, relative
+  for (const auto& [name, array] : clip.passthrough) {
+    if (name != kWeight || array.size() != 1) continue;
+    const double gravity = array.to_double().front() / motion::character_of(clip).total_mass();
+    return std::abs(gravity - kGravity) < kRounding * kGravity ? kGravity : gravity;
+  }
+  return kGravity;
 }
 
 bool remove_recorded(motion::Clip& clip) {

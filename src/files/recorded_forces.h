@@ -21,6 +21,9 @@ struct RecordedForces {
 /// @throws DataError naming clip and member if a member is missing or of another shape
 std::optional<RecordedForces> recorded_forces(const motion::Clip& clip);
 
+/// m/s², of the simulation that a motion comes from, by its member `body_weight`; of other motions kGravity.
+double recorded_gravity(const motion::Clip& clip);
+
 /// Removes what a simulation recorded beside the poses: joint positions and velocities, forces, weight. They
 /// do not belong to a motion of another body, another frame rate or other axes. @return whether there was any
 bool remove_recorded(motion::Clip& clip);

@@ -69,7 +69,8 @@ Seen seen(Who who, const motion::Clip& clip, double fps,
   const Character& character = s.motion.character;
   const PerFrame<BodyPoses>& poses = s.motion.poses;
   const audit::Slip slip =
-      forces ? audit::slip_of(poses, forces->ground, kGravity * character.total_mass(), fps, clip.scene)
+      forces ? audit::slip_of(poses, forces->ground, files::recorded_gravity(clip) * character.total_mass(),
+                              fps, clip.scene)
              : audit::slip_of_poses(character, poses, fps, clip.scene);
   s.measured = measured(motion::sample_motion(character, poses, fps, clip.scene), slip.speed);
   for (const auto& surface : s.measured.samples.surface)
@@ -151,9 +152,11 @@ Audits audits_of(const ClipFiles& files, double fps) {
     if (const motion::Clip clip = motion::resampled(*files.input, fps); clip.frames() > 2)
       audits.input = audit::needs_on_floor(clip);
   if (files.cleaned.body_model == "mimicx" && files.members.has("joint_torques") &&
-      files.cleaned.frames() > 1)
-    audits.cleaned = audit::audit_frames(audit::simulated_frames(files.cleaned, files.members),
-                                         physics::SimulationConfig{});
+      files.cleaned.frames() > 1) {
+    physics::SimulationConfig simulation;
+    simulation.gravity = files::recorded_gravity(files.cleaned);
+    audits.cleaned = audit::audit_frames(audit::simulated_frames(files.cleaned, files.members), simulation);
+  }
   return audits;
 }
 
@@ -188,7 +191,7 @@ void add_ground(const ClipFiles& files, ReportClip& clip) {
       files::read_wrenches(files.members, "ground_wrenches", cleaned.poses.size());
   for (std::size_t t = 0; t < wrenches.size(); ++t)
     clip.ground.push_back(files::floor_arrows(wrenches[t], cleaned.poses[t], files.cleaned.scene));
-  clip.weight = kGravity * cleaned.character.total_mass();
+  clip.weight = files::recorded_gravity(files.cleaned) * cleaned.character.total_mass();
 }
 
 /// Runs of older versions have no such members.

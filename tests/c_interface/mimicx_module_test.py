@@ -131,6 +131,19 @@ class Cleaning(unittest.TestCase):
         with self.assertRaisesRegex(mimicx.Error, "[.]glb"):
             mimicx.load(MOTION).bytes(".fbx")
 
+    def test_forces_of_another_body_are_left_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "cleaned.npz")
+            file.write_bytes(beginning().motion.bytes(".npz"))
+            as_it_is, heavier = mimicx.load(file), mimicx.load(file, mass=100)
+            self.assertEqual(as_it_is["joint_torques"].shape, (N, 55))
+            with self.assertRaises(KeyError):
+                heavier["joint_torques"]
+            self.assertIn(b"torque", as_it_is.bytes(".csv").split(b"\n")[0])
+            self.assertNotIn(b"torque", heavier.bytes(".csv").split(b"\n")[0])
+            with self.assertRaisesRegex(mimicx.Error, "mass=100"):
+                heavier.bytes(".mot")
+
     def test_poses_are_audited(self):
         found = mimicx.audit(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], body_model="mimicx")
         self.assertEqual(found[0]["evidence"], "poses alone")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "files/pushed_clip.h"
 
 namespace mimicx::files {
@@ -18,6 +19,16 @@ TEST(RecordedForces, MissingMemberIsAnErrorAndNoMembersIsEmpty) {
   clip.rotations.resize(3);
   clip.trans.resize(3);
   EXPECT_THROW(recorded_forces(clip), DataError) << "forces of another number of frames";
+}
+
+TEST(RecordedForces, GravityIsThatOfTheSimulation) {
+  motion::Clip clip = pushed_clip(4);
+  EXPECT_EQ(recorded_gravity(clip), kGravity);
+  const double mass = motion::character_of(clip).total_mass();
+  clip.passthrough.emplace_back("body_weight", NpyArray::scalar(kGravity * mass));
+  EXPECT_EQ(recorded_gravity(clip), kGravity);
+  clip.passthrough.back().second = NpyArray::scalar(5.0 * mass);
+  EXPECT_NEAR(recorded_gravity(clip), 5.0, 1e-12);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ void add_forces(const FloorForces& floor, const PerBody<Vector3d>& torque, doubl
 std::string format_csv(const motion::Clip& clip, const std::optional<RecordedForces>& forces) {
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   const List<FloorForces> floor = forces ? floor_forces(poses, *forces, clip.scene) : List<FloorForces>();
-  const double weight = kGravity * motion::character_of(clip).total_mass();
+  const double weight = recorded_gravity(clip) * motion::character_of(clip).total_mass();
   std::string text = heading(forces.has_value());
   for (int t = 0; t < clip.frames(); ++t) {
     text += formatted("%.9f", t / clip.fps);
