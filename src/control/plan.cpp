@@ -131,13 +131,16 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   const Attempt attempt{system, config, control, plan};
   HorizonResult found = system.assisted ? plan_with_assistance(attempt, cost).found
                                         : attempt.run(cost, config.horizon.backtracks);
-  Failure failure{found.lost_frame, found.lost_body, found.lost_distance};
+  const auto failure_of = [](const HorizonResult& lost) {
+    return Failure{lost.lost_frame, lost.lost_body, lost.lost_distance};
+  };
+  Failure failure = failure_of(found);
   if (found.ending == Ending::kLost && config.assisted_stages && !system.assisted)
     found = better_of(std::move(found), plan_in_stages(attempt, cost));
   if (found.ending == Ending::kLost && !system.assisted)
     found = better_of(std::move(found), plan_gently(attempt, cost));
   if (found.ending == Ending::kLost) {
-    failure.frame = std::max(failure.frame, found.lost_frame);
+    if (found.lost_frame > failure.frame) failure = failure_of(found);
     plan.failure = failure;
   }
   plan.ending = found.ending;

@@ -162,7 +162,7 @@ HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConf
     }
     const int begin = motion.begin + motion.size();
     if (begin >= search.until) search.variant = 0;
-    const int n = std::min(config.horizon + kLonger[search.variant], end - begin);
+    const int n = std::clamp(config.horizon + kLonger[search.variant], 1, end - begin);
     window.plan = first_guess(task, motion, window.plan, n, guess);
     solve_window(task, motion.size() == earliest, window, result);
     const int planned = window.plan.size();

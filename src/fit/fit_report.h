@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "core/containers.h"
+
 namespace mimicx::fit {
 
-/// Every number is written into the manifest.
+/// Every number but those of glitches, which preparation reports, is written into the manifest.
 struct FitReport {
   bool fitted = false;  ///< false: the motion is as it was, and a note says why
   /// RMS over keypoints weighted by confidence, % of the box; `residual_after` without the constant offsets.
@@ -23,6 +25,9 @@ struct FitReport {
   int dropped_points = 0;           ///< detections without confidence, or rejected as outliers
   double change_mean_mm = 0, change_max_mm = 0;  ///< of joint positions against the input
   std::vector<std::string> notes;                ///< why nothing was done, and what is unusual
+  PerFrame<bool>
+      flagged;  ///< [frames] that were interpolated before the fit (motion/prepare/bridging.h); or empty
+  int limb_frames = 0;  ///< the same of single limbs
 };
 
 }  // namespace mimicx::fit

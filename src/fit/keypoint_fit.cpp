@@ -1,10 +1,12 @@
 #include "fit/keypoint_fit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "fit/camera_smoothing.h"
 #include "fit/least_squares/gauss_newton.h"
+#include "motion/prepare/bridging.h"
 
 namespace mimicx::fit {
 namespace {
@@ -41,12 +43,15 @@ motion::Clip fit_keypoints(const motion::Clip& clip, const FitConfig& config, Fi
     r.notes.emplace_back("no keypoints: not fitted");
   } else {
     motion::require_usable(clip, 3);
-    const motion::Clip calm = with_a_calm_camera(clip, r);
+    const motion::BridgedClip whole = motion::bridged(clip);
+    const motion::Clip calm = with_a_calm_camera(whole.clip, r);
     FitProblem problem = make_problem(calm, config);
     if (const std::string why = reason_to_refuse(*calm.keypoints, problem); !why.empty())
       r.notes.push_back(why);
-    else
-      fitted = solved(calm, problem, r);
+    else if (motion::Clip found = solved(calm, problem, r); r.fitted)
+      fitted = std::move(found);
+    r.flagged = whole.flagged;
+    r.limb_frames = whole.limb_frames;
   }
   if (report) *report = r;
   return fitted;

@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "fit/least_squares/contacts.h"
 #include "fit/least_squares/gauss_newton.h"
+#include "motion/prepare/bridging.h"
 #include "motion/prepare/feet.h"
 #include "motion/prepare/floor_correction.h"
 #include "motion/surface_points.h"
@@ -73,13 +74,16 @@ motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitRep
   if (report) *report = r;
   if (clip.frames() < kFewestFrames) return clip;
   motion::require_usable(clip, kFewestFrames);
-  FitProblem problem = problem_of(clip, config);
+  const motion::BridgedClip whole = motion::bridged(clip);
+  FitProblem problem = problem_of(whole.clip, config);
   if (!problem.penalises_acceleration) {
     const double slip = slip_of(problem);
     if (slip < kStandingSlip) return clip;
     trust(std::min(slip / config.pose_slip, 1.0), problem.config);
   }
-  motion::Clip fitted = solved(clip, problem, r);
+  motion::Clip fitted = solved(whole.clip, problem, r);
+  r.flagged = whole.flagged;
+  r.limb_frames = whole.limb_frames;
   if (report) *report = r;
   return fitted;
 }

@@ -155,7 +155,11 @@ PreparedMotion prepare_motion(motion::Clip input, const std::filesystem::path& p
   for (const fit::FitReport* report : {&fitting, &planting})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;
-  motion.reference = motion::prepare_reference(motion.fitted, preparing(correction), &report);
+  const fit::FitReport& bridged = motion.has_fit ? fitting : planting;
+  motion::PreparationConfig preparation = preparing(correction);
+  preparation.flagged = bridged.flagged;
+  motion.reference = motion::prepare_reference(motion.fitted, preparation, &report);
+  report.limb_frames += bridged.limb_frames;
   if (!motion.has_fit && !correction.unfitted_keypoints) motion.reference.keypoints.reset();
   if (motion.input.on_floor) note_floor(motion);
   motion.preparation_values = values_of(report);

@@ -105,6 +105,15 @@ TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
   EXPECT_EQ(plan.residuals.size() + 1, plan.states.size());
 }
 
+TEST(Plan, EndsWithWindowsShorterThanTheShortestVariant) {
+  PlanConfig config = lost_soon();
+  config.horizon.backtracks = 12;
+  config.horizon.horizon = 4;
+  config.horizon.failure_distance = 1e-6;
+  config.assisted_stages = false;
+  EXPECT_EQ(make_plan(balloon(), config, {.threads = 2}).ending, Ending::kLost);
+}
+
 /// A reference that stands, is lifted by `kHeight` and put down within 0.8 s: a jump without a crouch.
 constexpr double kHeight = 0.45;
 System lifted() {

@@ -194,6 +194,38 @@ TEST(Preparation, FarFromTheOriginTheSameStepsAreFound) {
     EXPECT_LT((here.input.trans[t] + moved - there.input.trans[t]).norm(), 1e-6) << t;
 }
 
+// Whoever is a decimetre off in every frame because of one does not see why.
+TEST(Preparation, AFrameThatJumpsAwayMovesNoOther) {
+  const TemporaryFolder folder;
+  const std::filesystem::path noisy = kNoisy.parent_path() / "walk_1.npz";
+  constexpr int kBad = 80;
+  const auto with = [&](const std::function<void(motion::Clip&)>& change) {
+    motion::Clip clip = motion::read_clip(noisy);
+    change(clip);
+    motion::write_clip(folder.path / "walk_1.npz", clip);
+    return folder.path / "walk_1.npz";
+  };
+  const auto dives = [](motion::Clip& clip) { clip.trans[kBad].z() -= 0.8; };
+  const auto twists = [](motion::Clip& clip) {
+    for (int j = 3; j < kBodies; ++j)
+      clip.rotations[kBad][j] += Vector3d(0.7, -0.7, 0.7) * (j % 2 == 0 ? 1.0 : -1.0);
+  };
+  for (const bool fit : {true, false}) {
+    const PreparedMotion good = prepare_motion(noisy, {}, {.fit = fit});
+    for (const std::function<void(motion::Clip&)>& change :
+         {std::function<void(motion::Clip&)>(dives), {twists}}) {
+      const PreparedMotion bad = prepare_motion(with(change), {}, {.fit = fit});
+      EXPECT_TRUE(bad.reference.flagged[kBad]);
+      for (int t = 0; t < good.reference.size(); ++t) {
+        if (std::abs(t - kBad) < 5) continue;
+        for (int j = 0; j < kBodies; ++j)
+          ASSERT_LT((bad.reference.poses[t].p_WB[j] - good.reference.poses[t].p_WB[j]).norm(), 0.01)
+              << "m, frame " << t << ", " << kBodyNames[j] << (fit ? ", with keypoints" : ", poses alone");
+      }
+    }
+  }
+}
+
 TEST(Preparation, ReadingIsAnotherWhereTheNamedFileIs) {
   const TemporaryFolder folder;
   import::ReadConfig read;

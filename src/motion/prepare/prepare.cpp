@@ -8,6 +8,7 @@
 #include "core/number_text.h"
 #include "core/units.h"
 #include "motion/prepare/arm_separation.h"
+#include "motion/prepare/bridging.h"
 #include "motion/prepare/feet.h"
 #include "motion/prepare/floor_correction.h"
 #include "motion/prepare/foot_planting.h"
@@ -15,7 +16,6 @@
 #include "motion/prepare/ground_slope.h"
 #include "motion/prepare/hinge.h"
 #include "motion/prepare/joint_ranges.h"
-#include "motion/prepare/limb_glitches.h"
 #include "motion/prepare/root_travel.h"
 #include "motion/prepare/self_passage.h"
 #include "motion/prepare/stance.h"
@@ -189,6 +189,16 @@ void begin_in_flight(Reference& reference) {
   reference.frames[0].v_root += sum / squares - first;
 }
 
+/// Flags the frames of a reference whose times are at, or beside, those of flagged frames of another rate.
+void add_flags(const PerFrame<bool>& other, double other_fps, double fps, PerFrame<bool>& flagged) {
+  if (other.empty()) return;
+  for (int t = 0; t < flagged.count(); ++t) {
+    const double at = t / fps * other_fps;
+    for (const double beside : {std::floor(at), std::ceil(at)})
+      if (other[std::min(static_cast<int>(beside), other.count() - 1)]) flagged[t] = true;
+  }
+}
+
 }  // namespace
 
 Reference prepare_reference(const Clip& clip, const PreparationConfig& config, PreparationReport* report) {
@@ -199,32 +209,29 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
     throw DataError(clip.name, "", formatted("at least 2 frames at %g fps", config.fps),
                     formatted("%d frames at %g fps", clip.frames(), clip.fps));
   require_usable(input, 2);
-  Clip bridged = input;
+  const BridgedClip whole =
+      config.bridge_flagged ? bridged(input) : BridgedClip{input, find_glitches(input), 0};
   Reference out;
   out.name = clip.name;
   out.fps = config.fps;
   out.character = character_of(clip);
   out.scene = clip.scene;
   out.keypoints = input.keypoints;
-  out.flagged = find_glitches(input);
+  out.flagged = whole.flagged;
+  add_flags(config.flagged, clip.fps, config.fps, out.flagged);
   r.flagged_frames = static_cast<int>(std::count(out.flagged.begin(), out.flagged.end(), true));
-  if (config.bridge_flagged) {
-    bridge_glitches(bridged, out.flagged);
-    const List<LimbGlitch> limbs = find_limb_glitches(bridged);
-    for (const LimbGlitch& glitch : limbs) r.limb_frames += glitch.last - glitch.first + 1;
-    bridge_limb_glitches(bridged, limbs);
-  }
+  r.limb_frames = whole.limb_frames;
 
-  const auto q = to_hinges(out.character, joint_rotations(bridged));
+  const auto q = to_hinges(out.character, joint_rotations(whole.clip));
   const Vector3d pelvis = rest_pelvis(clip);
   for (int t = 0; t < q.count(); ++t) {
     ReferenceFrame frame;
-    frame.p_root = bridged.trans[t] + pelvis;
+    frame.p_root = whole.clip.trans[t] + pelvis;
     frame.q = q[t];
     out.frames.push_back(frame);
   }
   forward(out);
-  const Distance hinge = distance_mm(poses_of(bridged), out.poses);
+  const Distance hinge = distance_mm(poses_of(whole.clip), out.poses);
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
   const std::vector<std::string> contradicted = contradictions(out);

@@ -32,13 +32,14 @@ struct PreparationReport {
 
 struct PreparationConfig {
   double fps = 30.0;
-  bool ranges = true;          ///< bring joints inside their ranges
-  bool separate = true;        ///< lead limbs around the body, and move arms out of it
-  bool sees = true;            ///< keypoints help to decide where a limb goes around the body
-  bool level_feet = true;      ///< remove a constant error in the pitch and roll of standing feet
-  bool ground = true;          ///< align with the floor
-  bool plant = true;           ///< put standing feet on one place of the floor, if `ground`
-  bool bridge_flagged = true;  ///< interpolate over implausible frames
+  bool ranges = true;           ///< bring joints inside their ranges
+  bool separate = true;         ///< lead limbs around the body, and move arms out of it
+  bool sees = true;             ///< keypoints help to decide where a limb goes around the body
+  bool level_feet = true;       ///< remove a constant error in the pitch and roll of standing feet
+  bool ground = true;           ///< align with the floor
+  bool plant = true;            ///< put standing feet on one place of the floor, if `ground`
+  bool bridge_flagged = true;   ///< interpolate over implausible frames
+  PerFrame<bool> flagged = {};  ///< [frames of the clip] that were interpolated before; empty: none
 };
 
 /// Resamples the clip, bridges implausible frames, turns knees and elbows into hinges, brings joints into

@@ -26,7 +26,9 @@ constexpr double kSigmaDepthAside = 0.003, kSigmaSeen = 0.03;  ///< m
 constexpr CorrectionSigmas kLimbSigmas = {0.5, 1.5 * kDegree, 0.2, 1e-3, 15};  ///< rad
 constexpr double kBeforeAndAfter = 0.5;                                        ///< s
 constexpr int kWaysAcross = 8;
-constexpr int kMostPassages = 40;
+constexpr int kMostPassages = 40,
+              kFramesPerPassage =
+                  15;  ///< at most so many are led around, of long motions one in so many frames
 constexpr double kSigmaDetection = 0.02, kFarDetection = 0.1;  ///< heights of the box
 
 /// Unknowns of a frame: root joint (3) and hinge (1) of the limb.
@@ -344,13 +346,17 @@ bool same_place(const Passage& a, const Passage& b) {
 PassageReport lead_limbs_around(Reference& reference) {
   PassageReport report;
   List<Passage> given_up;
-  for (int k = 0; k < kMostPassages; ++k) {
+  const auto others = [&] {
     List<Passage> found = all_passages(reference);
     std::erase_if(found, [&](const Passage& p) {
       return std::any_of(given_up.begin(), given_up.end(),
                          [&](const Passage& g) { return same_place(p, g); });
     });
-    if (found.empty()) break;
+    return found;
+  };
+  List<Passage> found = others();
+  const int most = std::max(kMostPassages, reference.size() / kFramesPerPassage);
+  for (int k = 0; k < most && !found.empty(); ++k, found = others()) {
     if (report.passages++ == 0) {
       report.first_frame = found[0].first;
       report.limb_body = found[0].body;
@@ -370,6 +376,11 @@ PassageReport lead_limbs_around(Reference& reference) {
       ++report.remaining;
       given_up.push_back(found[0]);
     }
+  }
+  for (; !found.empty(); found = others()) {
+    ++report.passages;
+    ++report.remaining;
+    given_up.push_back(found[0]);
   }
   return report;
 }

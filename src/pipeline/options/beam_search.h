@@ -5,9 +5,9 @@
 /// characters: from each of the best states so far, every option acts for a stretch of frames, and the best
 /// resulting states are kept. Paths are compared by Eq. 4 with the rewards of these roll-outs; fallen paths
 /// are dropped. If all paths have fallen, the search goes back some stretches and retries with more states
-/// and stretches of half the length, until it has passed that frame; every further retry goes back farther
-/// and keeps more states. Without retries left, the best path restarts from the reference, and the break is
-/// recorded.
+/// and stretches of half the length, until it has passed that frame; every further retry goes back so many
+/// more of those and keeps more states. Without retries left, the best path restarts from the reference, and
+/// the break is recorded.
 ///
 /// With one stretch as long as the clip, the result is the best single option.
 ///

@@ -65,6 +65,25 @@ TEST(SelfPassage, LeadsAHandAroundTheHead) {
   EXPECT_EQ(lead_limbs_around(reference).passages, 0);  // nothing is left
 }
 
+// Of a motion that is long, or very wrong, too: what is not led around is counted.
+TEST(SelfPassage, WhatIsLeftIsCounted) {
+  constexpr int kCrossings = 88, kFrames = 10;
+  Clip clip = test::clip_with_passing_hand();
+  Clip many = clip;
+  many.rotations.clear();
+  many.trans.clear();
+  for (int k = 0; k < kCrossings; ++k)
+    for (int t = 0; t < kFrames; ++t) {  // through the head and back again
+      const int at = test::kPassageFrom + (k % 2 == 0 ? t : kFrames - t);
+      many.rotations.push_back(clip.rotations[at]);
+      many.trans.push_back(clip.trans[at]);
+    }
+  Reference reference = unrepaired(many);
+  const PassageReport first = lead_limbs_around(reference), again = lead_limbs_around(reference);
+  EXPECT_GT(first.passages, 40);
+  EXPECT_GE(first.remaining, again.passages);
+}
+
 // Separation alone leaves it as deep in the head as contact may be.
 TEST(SelfPassage, SeparationAloneLeavesTheHandInTheHead) {
   Reference reference = passing_hand();
