@@ -11,6 +11,8 @@ struct BridgedClip {
   int limb_frames = 0;     ///< frames of single limbs
 };
 
+/// A clip of a higher rate is searched in interleaved parts of about 30 frames per second: the faster the
+/// frames follow each other, the more do errors of a place count as speed.
 BridgedClip bridged(const Clip& clip);
 
 }  // namespace mimicx::motion
