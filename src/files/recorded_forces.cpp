@@ -12,16 +12,11 @@ namespace mimicx::files {
 namespace {
 
 constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques", *kWeight = "body_weight";
-constexpr Array<std::string_view, 10> kRecorded = {"joints",
-                                                   "velocities",
-                                                   "joint_torques",
-                                                   "range_torques",
-                                                   "ground_wrenches",
-                                                   "self_contact_wrenches",
-                                                   "foot_force_least",
-                                                   "foot_force_most",
-                                                   "foot_force_least_effort",
-                                                   kWeight};
+constexpr Array<std::string_view, 10> kRecorded = {
+    "joints",           "velocities",      "joint_torques",
+    "range_torques",    "ground_wrenches", "self_contact_wrenches",
+    "foot_force_least", "foot_force_most", "foot_force_least_effort",
+    "body_weight"};
 
 }  // namespace
 

@@ -25,9 +25,8 @@ struct FitReport {
   int dropped_points = 0;           ///< detections without confidence, or rejected as outliers
   double change_mean_mm = 0, change_max_mm = 0;  ///< of joint positions against the input
   std::vector<std::string> notes;                ///< why nothing was done, and what is unusual
-  PerFrame<bool>
-      flagged;  ///< [frames] that were interpolated before the fit (motion/prepare/bridging.h); or empty
-  int limb_frames = 0;  ///< the same of single limbs
+  PerFrame<bool> flagged;  ///< [frames] interpolated before the fit (motion/prepare/bridging.h), or empty
+  int limb_frames = 0;     ///< the same of single limbs
 };
 
 }  // namespace mimicx::fit

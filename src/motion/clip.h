@@ -52,9 +52,8 @@ struct Clip {
   /// Joints of the file's own body, J(β) of a licensed model, where they are known. They replace the joints
   /// of the standard body and the mean J0.
   std::optional<RestJoints> rest_joints;
-  Scene scene;  ///< the ground, in the world of the motion
-  Vector3d place =
-      Vector3d::Zero();   ///< m, by which reading moved the world, plates and cameras to the origin
+  Scene scene;                        ///< the ground, in the world of the motion
+  Vector3d place = Vector3d::Zero();  ///< m, by which reading moved everything to the origin
   bool on_floor = false;  ///< the user gave the floor as z = 0: preparation adds no constant height
 
   int frames() const { return rotations.count(); }

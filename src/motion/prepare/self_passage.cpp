@@ -26,9 +26,8 @@ constexpr double kSigmaDepthAside = 0.003, kSigmaSeen = 0.03;  ///< m
 constexpr CorrectionSigmas kLimbSigmas = {0.5, 1.5 * kDegree, 0.2, 1e-3, 15};  ///< rad
 constexpr double kBeforeAndAfter = 0.5;                                        ///< s
 constexpr int kWaysAcross = 8;
-constexpr int kMostPassages = 40,
-              kFramesPerPassage =
-                  15;  ///< at most so many are led around, of long motions one in so many frames
+constexpr int kMostPassages = 40;      ///< that are led around
+constexpr int kFramesPerPassage = 15;  ///< of a long motion so many more: one in these frames
 constexpr double kSigmaDetection = 0.02, kFarDetection = 0.1;  ///< heights of the box
 
 /// Unknowns of a frame: root joint (3) and hinge (1) of the limb.
@@ -377,10 +376,10 @@ PassageReport lead_limbs_around(Reference& reference) {
       given_up.push_back(found[0]);
     }
   }
-  for (; !found.empty(); found = others()) {
+  while (!found.empty()) {
     ++report.passages;
     ++report.remaining;
-    given_up.push_back(found[0]);
+    std::erase_if(found, [left = found[0]](const Passage& p) { return same_place(p, left); });
   }
   return report;
 }
