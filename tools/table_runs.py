@@ -9,8 +9,11 @@ import sys
 import tempfile
 
 
+FOLLOWS = "plan", "adapt", "imitate"  # status 1: a motion was not followed, which is a result
+
+
 def call(*arguments, statuses=(0, 1)):
-    """Runs a program and returns its seconds of processor time. Status 1: a motion was not followed, which is a result."""
+    """Runs a program and returns its seconds of processor time."""
     print(*(pathlib.Path(arguments[0]).name, *arguments[1:]), file=sys.stderr)
     process = subprocess.Popen(list(map(str, arguments)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     words = process.stderr.read()
@@ -54,11 +57,17 @@ class Runs:
         self.version = " and ".join(versions)
 
     def run(self, out, *arguments):
-        """Runs mimicx into the folder unless it has been, and leaves its seconds of processor time beside it."""
-        done = out.parent / (out.name + ".seconds")
+        """Runs mimicx into the folder unless it has been, and leaves its seconds of processor time and its command beside
+        it."""
+        done, made_by = (out.parent / (out.name + end) for end in (".seconds", ".command"))
+        command = " ".join(map(str, arguments)) + "\n"
         if not done.exists():
             out.parent.mkdir(parents=True, exist_ok=True)
-            done.write_text(f"{call(self.program, *arguments, '--out', out):.2f}\n")
+            made_by.write_text(command)
+            statuses = (0, 1) if arguments[0] in FOLLOWS else (0,)
+            done.write_text(f"{call(self.program, *arguments, '--out', out, statuses=statuses):.2f}\n")
+        elif not made_by.exists() or made_by.read_text() != command:
+            sys.exit(f"{out} was made by another command than mimicx {command.strip()}: remove it, or give another --out")
         return out
 
     def scores(self, truth, motions, table=None):

@@ -96,6 +96,26 @@ class Results(unittest.TestCase):
         with self.assertRaises(SystemExit):
             self.written(page, table1="tools/paper 1 --quick")
 
+    def test_tables_of_real_motions_stay_where_a_folder_of_them_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shared, out = pathlib.Path(folder, "shared"), pathlib.Path(folder, "out")
+            for name in list(results.REAL.values())[1:]:
+                (shared / "motions" / name).mkdir(parents=True)
+            program = pathlib.Path(folder, "program")
+            program.write_text("#!/bin/sh\n")
+            program.chmod(0o755)
+            words, before, argv = io.StringIO(), [page.read_text() for page in results.PAGES], sys.argv
+            sys.argv = ["results", *results.OF_REAL, "--shared", str(shared), "--out", str(out), "--paper", folder,
+                        "--mimicx", str(program)]
+            try:
+                with contextlib.redirect_stderr(words):
+                    results.main()
+            finally:
+                sys.argv = argv
+            self.assertEqual([page.read_text() for page in results.PAGES], before)
+            self.assertIn("real stays as it is", words.getvalue())
+            self.assertEqual(list(out.glob("*.md")), [])
+
     def test_every_table_between_marks_can_be_made(self):
         made = {*results.TABLES, "table1", "table2", "table3"}
         for page in results.PAGES:
@@ -116,6 +136,30 @@ class MadeOnce(unittest.TestCase):
                     runs.run(out / "plan", "plan", "--out", out / "plan")
             self.assertEqual((out / "plan/made").read_text(), "one\n")
             self.assertEqual(runs.version, "one and two")
+
+    def test_a_run_by_another_command_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program, out = pathlib.Path(folder, "program"), pathlib.Path(folder, "out")
+            program.write_text('#!/bin/sh\nexit 0\n')
+            program.chmod(0o755)
+            runs = table_runs.Runs(program, out)
+            with contextlib.redirect_stderr(io.StringIO()):
+                runs.run(out / "plan", "plan", "--clips", 1)
+                runs.run(out / "plan", "plan", "--clips", 1)
+                with self.assertRaisesRegex(SystemExit, "another command than mimicx plan --clips 8"):
+                    runs.run(out / "plan", "plan", "--clips", 8)
+
+    def test_only_motions_that_are_not_followed_are_a_result(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program, out = pathlib.Path(folder, "program"), pathlib.Path(folder, "out")
+            program.write_text('#!/bin/sh\n[ "$1" = --version ] && exit 0\necho full disk >&2\nexit 1\n')
+            program.chmod(0o755)
+            runs = table_runs.Runs(program, out)
+            with contextlib.redirect_stderr(io.StringIO()):
+                runs.run(out / "plan", "plan")
+                for _ in range(2):  # it is not taken for made
+                    with self.assertRaisesRegex(SystemExit, "full disk"):
+                        runs.run(out / "set", "synth")
 
 
 unittest.main()
