@@ -376,6 +376,9 @@ class Run:
         return ((entry, self.arrays(entry)) for entry in self.entries if entry["status"] == "ok")
 
 
+_WHOLE = "betas", "camera_intrinsics", "rest_joints", "scene_plates"  # members that are never per frame
+
+
 class RunMotions:
     """Stretches of equal length of all motions of a run that were followed, as a data set for training:
     torch.utils.data.DataLoader takes it as it is. Item k is {member: float32 (frames, ...)}; members that are not per
@@ -390,8 +393,8 @@ class RunMotions:
             if missing := [name for name in self.members if name not in arrays]:
                 raise KeyError(f"{entry['name']}: expected the member {missing[0]}, found {', '.join(arrays)}")
             count = len(arrays["poses"])
-            motion = {name: (np.asarray(arrays[name], dtype=np.float32), arrays[name].shape[:1] == (count,))
-                      for name in self.members}
+            motion = {name: (np.asarray(arrays[name], dtype=np.float32),
+                             name not in _WHOLE and arrays[name].shape[:1] == (count,)) for name in self.members}
             self._places += [(len(self._motions), start) for start in range(0, count - frames + 1, stride)]
             self._motions.append(motion)
         if not self._places:

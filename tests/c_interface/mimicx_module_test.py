@@ -60,6 +60,15 @@ class Cleaning(unittest.TestCase):
             with self.assertRaisesRegex(mimicx.Error, "lost"):
                 run.arrays({"name": "lost", "output": "", "reason": "fell"})
 
+    def test_betas_of_a_motion_of_ten_frames_are_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            small = pathlib.Path(folder, "small.npz")
+            np.savez(small, poses=FILE["poses"][:10], trans=FILE["trans"][:10], betas=FILE["betas"], mocap_framerate=30.0,
+                     body_model="mimicx")
+            subprocess.run([PROGRAM, "plan", str(small), "--out", folder + "/run", "--quiet"], check=True)
+            stretches = mimicx.RunMotions(folder + "/run", frames=5, members=("betas", "poses"))
+            self.assertEqual((stretches[1]["betas"].shape, stretches[1]["poses"].shape[0]), ((10,), 5))
+
     def test_arrays_are_cleaned_and_outlive_the_motion(self):
         told = []
         result = beginning(progress=told.append, threads=1)
