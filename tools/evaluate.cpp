@@ -133,7 +133,8 @@ int evaluate(const EvaluateArguments& a) {
     if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
     if (!a.json.empty()) write_json(a.json, judge::comparison_json(comparison));
     const bool within = holds(comparison.evaluations.back(), comparison.labels.back(), limits);
-    return none || !within || !comparison.failures.empty() ? kSomeFailed : kAllGood;
+    const bool complete = limits.empty() || comparison.left_out == 0;
+    return none || !within || !complete || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
   const judge::Evaluation evaluation = judge::evaluate_folders(a.truth, a.motions.front(), a.read);
   tell_decisions(evaluation);
@@ -142,7 +143,8 @@ int evaluate(const EvaluateArguments& a) {
   if (!a.json.empty()) write_json(a.json, judge::evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
   const bool within = holds(evaluation, a.motions.front(), limits);
-  return within && std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; })
+  const bool complete = limits.empty() || evaluation.unmatched.empty();
+  return within && complete && std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; })
              ? kAllGood
              : kSomeFailed;
 }
@@ -170,7 +172,7 @@ void declare_evaluate(CommandLine& line) {
   Option gate = command.texts("--fail-above", a->fail_above, "NAME=VALUE",
                               "exit with status 1 where the mean of this metric is above the value, or "
                               "is missing; of several --motions "
-                              "the last one's; repeatable");
+                              "the last one's; also where a truth has no motion; repeatable");
   gate.needs(truth);
   command
       .one_of("--protocol", a->protocol, motion::protocol_names(),

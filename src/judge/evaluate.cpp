@@ -26,14 +26,19 @@ void share_scene(motion::Clip& a, motion::Clip& b) {
   if (b.scene.flat()) b.scene = a.scene;
 }
 
-/// Motions that begin far from the origin were moved there by multiples of 100 m (import/motion_file.h), each
-/// by its own. The motion is moved on by such a multiple, to where it begins nearest to the truth.
+/// Reading moves motions that begin far from the origin there, by multiples of 100 m (import/motion_file.h).
+/// Both are put where the truth was moved to. The motions of a run were moved by such a multiple before they
+/// were written: one that begins within `kNear` of the truth but for a multiple is moved by it.
 void meet(motion::Clip& clip, const motion::Clip& known) {
+  constexpr double kNear = 10.0;  // m
   if (clip.trans.empty() || known.trans.empty()) return;
+  const Vector3d read = known.place - clip.place;
+  if (!read.isZero(0.0)) import::shift_world(read, clip);
+  if (!clip.place.isZero(0.0)) return;  // far from the origin in its file: no run wrote it
   Vector3d apart = clip.trans.front() - known.trans.front();
   apart.z() = 0.0;
   const Vector3d shift = import::kMove * Vector3d((apart / import::kMove).array().round());
-  if (!shift.isZero(0.0)) import::shift_world(-shift, clip);
+  if (!shift.isZero(0.0) && (apart - shift).norm() < kNear) import::shift_world(-shift, clip);
 }
 
 /// A motion and its truth on their scenes. @throws DataError

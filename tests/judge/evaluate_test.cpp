@@ -137,6 +137,24 @@ TEST_F(Evaluate, MotionsOnEitherSideOfFiftyMetresAreAsNearAsTheyAre) {
   }));
 }
 
+/// A run writes a motion near the origin whose truth is 300 m away; other distances are what they are.
+TEST_F(Evaluate, DistancesAreNotTakenModuloHundredMetres) {
+  const auto distance = [&](double of_truth, double of_motion) {
+    const motion::Clip clip = motion::standing_clip(20);
+    for (const auto& [folder, x] : {std::pair(truth, of_truth), {motions, of_motion}}) {
+      motion::Clip moved = clip;
+      for (Vector3d& p : moved.trans) p.x() += x - clip.trans.front().x();
+      motion::write_clip(folder / "a.npz", moved);
+    }
+    return metric(evaluate_folders(truth, motions).motions.at(0), "MRPE") / 1000.0;
+  };
+  EXPECT_NEAR(distance(-30.0, 30.0), 60.0, 1e-6);
+  EXPECT_NEAR(distance(0.0, 100.0), 100.0, 1e-6);
+  EXPECT_NEAR(distance(0.0, 330.0), 330.0, 1e-6);
+  EXPECT_NEAR(distance(330.0, 331.0), 1.0, 1e-6);
+  EXPECT_NEAR(distance(300.0, 0.2), 0.2, 1e-6) << "of a run";
+}
+
 TEST_F(Evaluate, MissingFileIsNamed) {
   add_pair("a", 0.0);
   const Evaluation e = evaluate_folders(truth, motions / "none.npz");

@@ -82,6 +82,15 @@ TEST_F(CliResults, EvaluateFailsAboveALimit) {
   EXPECT_EQ(missing.status, 1);
   EXPECT_TRUE(says(missing, "chatter has no value")) << missing.text;
   EXPECT_EQ(mimicx(evaluate + " " + b + " --fail-above MPJPE=1").status, 1);  // b has no truth of its name
+  std::filesystem::create_directories(path("one"));
+  std::filesystem::copy(a, path("one/a.npz"));
+  std::filesystem::create_directories(path("both"));
+  for (const std::string& file : {a, b}) std::filesystem::copy(file, path("both"));
+  const std::string lost = "evaluate --truth " + path("both") + " --motions ";
+  EXPECT_EQ(mimicx(lost + path("one")).status, 0);
+  EXPECT_EQ(mimicx(lost + path("one") + " --fail-above MPJPE=1").status, 1) << "the other one was lost";
+  EXPECT_EQ(mimicx(lost + path("both") + " " + path("one") + " --fail-above MPJPE=1").status, 1);
+  EXPECT_EQ(mimicx(lost + path("both") + " --fail-above MPJPE=1").status, 0);
   for (const char* wrong : {"MPJPE", "MPJPE=", "beauty=1", "=1"}) {
     const Call call = mimicx(evaluate + " --fail-above " + wrong);
     EXPECT_EQ(call.status, 2) << wrong;
