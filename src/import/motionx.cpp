@@ -97,9 +97,13 @@ motion::Clip motionx_from(const NpyArray& array, const std::string& name, const 
                           bool may_scale) {
   require_layout(array, path);
   const MatrixXd values = to_matrix(array);
+  constexpr Columns used[] = {
+      {"pose", kBody, 3 * kBodies}, {"trans", kTrans, 3}, {"betas", kBetaColumns, kBetas}};
   for (Index t = 0; t < values.rows(); ++t)
-    if (!values.row(t).allFinite())
-      throw DataError(path, "frame " + std::to_string(t), "finite numbers", "one that is not");
+    for (const Columns& part : used)
+      if (!values.row(t).segment(part.first, part.columns).allFinite())
+        throw DataError(path, "frame " + std::to_string(t), std::string("finite numbers of ") + part.name,
+                        "one that is not");
   motion::Clip clip;
   clip.name = name;
   clip.fps = kMotionXFps;

@@ -1,6 +1,7 @@
 #include "motion/clip_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/number_text.h"
@@ -106,6 +107,8 @@ double read_fps(const Npz& npz, const std::optional<double>& given, Clip& clip) 
                               text_of(fps.values[0]) + "; the first is used (--fps overrides)");
     if (!rate) rate = fps.values[0], key = name;
   }
+  for (const auto& [name, why] : npz.unsupported())
+    if (std::find(kRates.begin(), kRates.end(), name) != kRates.end()) found = "a pickled " + name;
   if (!rate && !given)
     throw DataError(npz.path, "", "a frame rate (mocap_framerate, mocap_frame_rate or fps; --fps gives one)",
                     found);
@@ -224,8 +227,12 @@ std::string read_body_model(const Npz& npz, const std::string& from_layout) {
   for (const char* key : {"body_model", "surface_model_type"}) {
     if (!npz.has(key)) continue;
     const std::string name = member_text(npz, key).value_or("something else");
+    std::string plain;  // of "SMPL-X", "smpl+h"
+    for (const char c : name)
+      if (c != '-' && c != '+' && c != ' ')
+        plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const char* known : {"mimicx", "smplx", "smplh", "smpl"})
-      if (name == known || name.starts_with(std::string(known) + "_")) return known;
+      if (plain == known || plain.starts_with(std::string(known) + "_")) return known;
     throw DataError(npz.path, key, "mimicx, smplx, smplh or smpl", "'" + name + "'");
   }
   return from_layout;
@@ -297,7 +304,11 @@ std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& point
   const auto& unread = npz.unsupported();
   const bool unreadable = std::any_of(unread.begin(), unread.end(),
                                       [](const auto& member) { return member.first == "keypoint_names"; });
-  if (npz.has("keypoint_names") || unreadable) return npz.at("keypoint_names").text;
+  if (npz.has("keypoint_names") || unreadable) {
+    std::vector<std::string> names = npz.at("keypoint_names").text;
+    for (std::string& name : names) name = known_keypoint_name(name);
+    return names;
+  }
   if (points.array.shape.size() != 3) points.fail("shape (frames, keypoints, 3)", points.shape());
   const std::size_t count = points.array.shape[1];
   const std::optional<KeypointSet> set = keypoint_set_of(count);
@@ -314,14 +325,24 @@ std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& point
   return keypoint_names(*set);
 }
 
-/// Adds a decision where most keypoints belong to face and fingers, which are not used.
+/// Adds a decision where most keypoints are not used: they belong to face and fingers, or have other names.
 void say_what_is_left_aside(const std::vector<std::string>& names, Clip& clip) {
+  constexpr int kTold = 3;
+  const std::vector<std::string> detector = keypoint_names(KeypointSet::kCoco133);
+  std::string unknown;
+  int others = 0;
+  for (const std::string& name : names)
+    if (!place_of_keypoint(name) && std::find(detector.begin(), detector.end(), name) == detector.end() &&
+        ++others <= kTold)
+      unknown += (unknown.empty() ? "" : ", ") + name;
   const auto used = std::count_if(names.begin(), names.end(), [](const std::string& name) {
     return place_of_keypoint(name).has_value();
   });
   if (2 * used < std::ssize(names))
     clip.decisions.push_back("keypoints: " + std::to_string(used) + " of " + std::to_string(names.size()) +
-                             " have a place on the body; the others (face, fingers) are not used");
+                             " have a place on the body; the others (" +
+                             (others == 0 ? "face, fingers" : unknown + (others > kTold ? ", …" : "")) +
+                             ") are not used");
 }
 
 Keypoints read_keypoints(const Npz& npz, Clip& clip) {

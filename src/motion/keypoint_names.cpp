@@ -1,6 +1,8 @@
 #include "motion/keypoint_names.h"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 namespace mimicx::motion {
 namespace {
@@ -44,6 +46,24 @@ std::string mirrored_name(const std::string& name) {
   if (name.starts_with("left_")) return "right_" + name.substr(5);
   if (name.starts_with("right_")) return "left_" + name.substr(6);
   return name;
+}
+
+std::string known_keypoint_name(const std::string& name) {
+  const auto upper = [&](std::size_t i) { return i < name.size() && name[i] >= 'A' && name[i] <= 'Z'; };
+  const auto lower = [&](std::size_t i) { return i < name.size() && name[i] >= 'a' && name[i] <= 'z'; };
+  std::string plain;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool blank = name[i] == ' ' || name[i] == '-';
+    const bool word = i > 0 && upper(i) && (lower(i - 1) || (upper(i - 1) && lower(i + 1)));
+    if (word) plain += '_';
+    plain += blank ? '_' : upper(i) ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
+  }
+  for (const auto& [letter, side] : {std::pair("l_", "left_"), {"r_", "right_"}})
+    if (plain.starts_with(letter)) plain = side + plain.substr(2);
+  if (plain == "mid_hip") plain = kBodyNames[kPelvis];
+  const std::vector<std::string> coco = keypoint_names(KeypointSet::kCoco17);
+  const bool known = place_of_keypoint(plain) || std::find(coco.begin(), coco.end(), plain) != coco.end();
+  return known ? plain : name;
 }
 
 std::optional<KeypointPlace> place_of_keypoint(const std::string& name) {

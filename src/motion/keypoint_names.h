@@ -28,6 +28,10 @@ struct KeypointPlace {
   int first = 0, last = -1;  ///< sole points whose mean it lies above; none: it lies at the joint
   double above = 0.0;        ///< height above that mean, in the body's frame, m
 };
+/// The name that the program has for a keypoint, whatever its spelling: of "LEFT_HIP", "left hip", "LeftHip",
+/// and of OpenPose's "LHip" and "MidHip". A name that is none of ours in any spelling stays as it is.
+std::string known_keypoint_name(const std::string& name);
+
 /// For joints, heels, big and small toes; empty for other names (face, fingers, unknown points).
 std::optional<KeypointPlace> place_of_keypoint(const std::string& name);
 

@@ -372,6 +372,25 @@ TEST(World, RotationTurnsEveryJointAndEveryCamera) {
   }
 }
 
+TEST(Motionx, NumbersThatNothingUsesNeedNotBeFinite) {
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(5, 322);
+  values(2, 200) = NAN;  // the face
+  EXPECT_EQ(motionx_from(from_matrix(values), "m", "m.npy").frames(), 5);
+  for (const auto& [column, part] :
+       {std::pair<Eigen::Index, std::string>{60, "pose"}, {310, "trans"}, {313, "betas"}}) {
+    Eigen::MatrixXd bad = Eigen::MatrixXd::Zero(5, 322);
+    bad(3, column) = NAN;
+    try {
+      motionx_from(from_matrix(bad), "m", "m.npy");
+      FAIL() << part;
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("frame 3: expected finite numbers of " + part),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Motionx, KeepsJawAndHandsOfPosesInOneArray) {
   motion::Clip clip = test::random_clip(7, 6, 0.6);
   for (const Eigen::Index columns : {99, 90}) {  // SMPL-X: jaw, eyes, hands; SMPL-H: hands

@@ -198,6 +198,10 @@ TEST(ClipFile, ReadsBothFrameRateKeysAndRequiresOne) {
   }
   npz.set("mocap_frame_rate", NpyArray::scalar_text("30"));
   expect_refusal(npz, "found text in mocap_frame_rate");
+  Npz pickled;
+  for (const char* key : {"poses", "trans"}) pickled.set(key, amass().at(key));
+  pickled.set_unsupported("fps", UnsupportedArray("a.npz", "fps", "numbers", "objects"));
+  expect_refusal(pickled, "found a pickled fps");
 }
 
 TEST(ClipFile, TheGivenRateStandsInForNoneAndForABadOne) {
@@ -480,6 +484,44 @@ TEST(ClipFile, ReportsUnusedFaceAndFingerKeypointsInOneLine) {
   ASSERT_EQ(clip.decisions.size(), 2u);
   EXPECT_NE(clip.decisions[1].find("18 of 133"), std::string::npos) << clip.decisions[1];
   EXPECT_EQ(clip.decisions[1].find('\n'), std::string::npos);
+}
+
+TEST(KeypointNames, AreKnownInEverySpelling) {
+  for (const auto& [spelled, known] : {std::pair<std::string, std::string>{"left_hip", "left_hip"},
+                                       {"LEFT_HIP", "left_hip"},
+                                       {"left hip", "left_hip"},
+                                       {"left-hip", "left_hip"},
+                                       {"LeftHip", "left_hip"},
+                                       {"leftHip", "left_hip"},
+                                       {"LHip", "left_hip"},
+                                       {"RBigToe", "right_big_toe"},
+                                       {"MidHip", "pelvis"},
+                                       {"Nose", "nose"},
+                                       {"REar", "right_ear"},
+                                       {"face-3", "face-3"},
+                                       {"Thing", "Thing"},
+                                       {"", ""}})
+    EXPECT_EQ(known_keypoint_name(spelled), known) << spelled;
+  for (const KeypointSet set : {KeypointSet::kJoints22, KeypointSet::kCoco17, KeypointSet::kCoco133})
+    for (const std::string& name : keypoint_names(set)) EXPECT_EQ(known_keypoint_name(name), name);
+}
+
+TEST(ClipFile, NamesKeypointsThatItDoesNotKnow) {
+  Npz npz = with_unnamed_keypoints(6);
+  npz.set("keypoint_names", NpyArray::from_text({"LHip", "p0", "p1", "p2", "p3", "face-1"}));
+  const Clip clip = read(npz);
+  EXPECT_EQ(clip.keypoints->names[0], "left_hip");
+  EXPECT_EQ(clip.decisions.at(0),
+            "keypoints: 1 of 6 have a place on the body; the others (p0, p1, p2, …) are not used");
+}
+
+TEST(ClipFile, ReadsTheBodyModelInEverySpelling) {
+  for (const auto& [spelled, model] :
+       {std::pair{"SMPL-X", "smplx"}, {"SMPLX", "smplx"}, {"smpl+h", "smplh"}, {"SMPL", "smpl"}}) {
+    Npz npz = with_unnamed_keypoints(22);
+    npz.set("body_model", NpyArray::scalar_text(spelled));
+    EXPECT_EQ(read(npz).body_model, model) << spelled;
+  }
 }
 
 TEST(ClipFile, RejectsUnreadableKeypointNames) {

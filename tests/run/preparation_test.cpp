@@ -81,6 +81,32 @@ TEST(Preparation, SaysThatKeypointsOfAHalfSizedPictureMoveThePersonAway) {
   }));
 }
 
+TEST(Preparation, SaysThatKeypointsAreOfAnotherPictureOrOfOtherFrames) {
+  const TemporaryFolder folder;
+  const std::filesystem::path walk = kNoisy.parent_path() / "walk_1.npz";
+  const auto notes = [&](const std::function<void(motion::Clip&)>& change) {
+    motion::Clip clip = motion::read_clip(walk);
+    change(clip);
+    motion::write_clip(folder.path / "walk_1.npz", clip);
+    std::string all;
+    for (const std::string& note : prepare_motion(folder.path / "walk_1.npz", {}, {.fit = true}).notes)
+      all += note + '\n';
+    return all;
+  };
+  const auto larger = [](motion::Clip& clip) { clip.keypoints->intrinsics.topRows<2>() *= 4.0 / 3.0; };
+  const auto later = [](motion::Clip& clip) {
+    auto& uvc = clip.keypoints->uvc;
+    std::rotate(uvc.begin(), uvc.begin() + 6, uvc.end());
+    for (auto point = uvc.end() - 6; point != uvc.end(); ++point)
+      for (Vector3d& p : *point) p.z() = 0.0;
+  };
+  const std::string as_it_is = notes([](motion::Clip&) {});
+  EXPECT_EQ(as_it_is.find("keypoints"), std::string::npos) << as_it_is;
+  const std::string of_larger = notes(larger), of_later = notes(later);
+  EXPECT_NE(of_larger.find("of pictures of one size?"), std::string::npos) << of_larger;
+  EXPECT_NE(of_later.find("frames or more ahead of the motion"), std::string::npos) << of_later;
+}
+
 TEST(Preparation, AsIsChangesNoPose) {
   const PreparedMotion plain = prepare_motion(kNoisy, {}, {.as_is = true});
   EXPECT_EQ(plain.fitted.rotations, plain.input.rotations);

@@ -25,6 +25,8 @@ constexpr double kPercent = 100.0;
 constexpr double kDoubtful = 1.5;         ///< % of the box; of detectors and estimators 0.3 to 0.5
 constexpr double kContradiction = 3.0;    ///< the same: then the keypoints are ignored
 constexpr double kFartherAway = 1.5;      ///< times as far from the camera; estimators err by less
+constexpr double kFarBefore = 30.0;       ///< % of the box, before the fit; of estimators 5 to 15
+constexpr double kFarAhead = 2.0;         ///< frames; of detectors and estimators less than one
 constexpr double kOtherPose = 100.0;      ///< mm about the pelvis, mean of the joints; estimators err by half
 constexpr double kSidesWrong = 0.5;       ///< of the frames; detectors exchange sides in a few
 constexpr double kToldSceneShift = 0.02;  ///< m
@@ -265,15 +267,26 @@ void report_distance(const motion::Clip& before, const motion::Clip& after, FitR
     depth_after.push_back(depth(after));
   }
   const double from = median(depth_before), to = median(depth_after);
-  if (to < kFartherAway * from && from < kFartherAway * to) return;
-  report.notes.push_back(formatted(
-      "the keypoint fit moves the person from %.1f to %.1f m from the camera: are keypoints and camera "
-      "of pictures of one size?",
-      from, to));
+  if (to >= kFartherAway * from || from >= kFartherAway * to)
+    report.notes.push_back(formatted(
+        "the keypoint fit moves the person from %.1f to %.1f m from the camera: are keypoints and camera "
+        "of pictures of one size?",
+        from, to));
+  else if (report.residual_before > kFarBefore)
+    report.notes.push_back(
+        formatted("the keypoints were %.0f %% of the person's height from the motion before the fit: are "
+                  "keypoints and camera of "
+                  "this motion, and of pictures of one size?",
+                  report.residual_before));
 }
 
 void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
   report.lead_frames = state.g[kLead];
+  if (std::abs(report.lead_frames) > kFarAhead)
+    report.notes.push_back(
+        formatted("the keypoints are %.1f frames or more %s the motion: are both of the same "
+                  "frames of the video?",
+                  std::abs(report.lead_frames), report.lead_frames > 0.0 ? "ahead of" : "behind"));
   report.confidence_power = problem.levels.confidence_power;
   if (problem.points.empty()) return;
   const std::vector<double>& sigma = problem.levels.keypoint;
