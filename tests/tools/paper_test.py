@@ -125,13 +125,19 @@ class Results(unittest.TestCase):
 
 
 class MadeOnce(unittest.TestCase):
+    @staticmethod
+    def runs(folder, script):
+        """Runs in folder/out by a program that is this shell script."""
+        program = pathlib.Path(folder, "program")
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+        return table_runs.Runs(program, pathlib.Path(folder, "out"))
+
     def test_a_run_is_made_once_and_every_version_is_named(self):
         with tempfile.TemporaryDirectory() as folder:
-            program, out = pathlib.Path(folder, "program"), pathlib.Path(folder, "out")
+            out = pathlib.Path(folder, "out")
             for version in ("one", "two"):
-                program.write_text(f'#!/bin/sh\nif [ "$1" = --version ]; then echo {version}; else mkdir -p "$3"; echo {version} >> "$3/made"; fi\n')
-                program.chmod(0o755)
-                runs = table_runs.Runs(program, out)
+                runs = self.runs(folder, f'if [ "$1" = --version ]; then echo {version}; else mkdir -p "$3"; echo {version} >> "$3/made"; fi')
                 with contextlib.redirect_stderr(io.StringIO()):
                     runs.run(out / "plan", "plan", "--out", out / "plan")
             self.assertEqual((out / "plan/made").read_text(), "one\n")
@@ -139,27 +145,21 @@ class MadeOnce(unittest.TestCase):
 
     def test_a_run_by_another_command_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
-            program, out = pathlib.Path(folder, "program"), pathlib.Path(folder, "out")
-            program.write_text('#!/bin/sh\nexit 0\n')
-            program.chmod(0o755)
-            runs = table_runs.Runs(program, out)
+            runs = self.runs(folder, "exit 0")
             with contextlib.redirect_stderr(io.StringIO()):
-                runs.run(out / "plan", "plan", "--clips", 1)
-                runs.run(out / "plan", "plan", "--clips", 1)
+                runs.run(runs.out / "plan", "plan", "--clips", 1)
+                runs.run(runs.out / "plan", "plan", "--clips", 1)
                 with self.assertRaisesRegex(SystemExit, "another command than mimicx plan --clips 8"):
-                    runs.run(out / "plan", "plan", "--clips", 8)
+                    runs.run(runs.out / "plan", "plan", "--clips", 8)
 
     def test_only_motions_that_are_not_followed_are_a_result(self):
         with tempfile.TemporaryDirectory() as folder:
-            program, out = pathlib.Path(folder, "program"), pathlib.Path(folder, "out")
-            program.write_text('#!/bin/sh\n[ "$1" = --version ] && exit 0\necho full disk >&2\nexit 1\n')
-            program.chmod(0o755)
-            runs = table_runs.Runs(program, out)
+            runs = self.runs(folder, '[ "$1" = --version ] && exit 0\necho full disk >&2\nexit 1')
             with contextlib.redirect_stderr(io.StringIO()):
-                runs.run(out / "plan", "plan")
+                runs.run(runs.out / "plan", "plan")
                 for _ in range(2):  # it is not taken for made
                     with self.assertRaisesRegex(SystemExit, "full disk"):
-                        runs.run(out / "set", "synth")
+                        runs.run(runs.out / "set", "synth")
 
 
 unittest.main()
