@@ -8,6 +8,7 @@
 #include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
+#include "files/recorded_forces.h"
 #include "import/motion_file.h"
 #include "picture/picture.h"
 #include "picture/png.h"
@@ -126,12 +127,9 @@ int render(const RenderArguments& a) {
   const List<picture::PosedMotion> motions = motions_of(a);
   bool forces = false;
   for (const picture::PosedMotion& p : motions) forces |= !p.forces.empty();
-  if (a.arrows && !forces)
-    throw DataError(
-        a.files.front(), "", "a motion with forces",
-        a.read.text().empty()
-            ? "none: mimicx plan writes motions with forces"
-            : "one that is read with other options than it was simulated with (" + a.read.text() + ")");
+  if (const std::string lost = files::other_reading(a.read); a.arrows && !forces)
+    throw DataError(a.files.front(), "", "a motion with forces",
+                    lost.empty() ? "none: mimicx plan writes motions with forces" : lost);
   picture::Layout layout;
   try {
     layout = picture::lay_out(motions, config);

@@ -64,6 +64,12 @@ SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
   return motion;
 }
 
+Audit audit_recorded(const motion::Clip& clip, const Npz& npz) {
+  physics::SimulationConfig simulation;
+  simulation.gravity = files::recorded_gravity(clip);
+  return audit_frames(simulated_frames(clip, npz), simulation);
+}
+
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
                               const import::ReadConfig& read) {
   return audit_bytes(read_file(path), path, poses_alone, read);
@@ -83,12 +89,7 @@ std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::
       const SubstepMotion motion = read_substeps(npz);
       return {audit_steps(motion), audit_replayed_steps(motion)};
     }
-    if (forces) {
-      const motion::Clip clip = motion::clip_from(npz, path.stem().string());
-      physics::SimulationConfig simulation;
-      simulation.gravity = files::recorded_gravity(clip);
-      return {audit_frames(simulated_frames(clip, npz), simulation)};
-    }
+    if (forces) return {audit_recorded(motion::clip_from(npz, path.stem().string()), npz)};
   }
   const motion::Clip clip = import::motion_from(bytes, path, read);
   if (clip.frames() < 3)

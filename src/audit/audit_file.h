@@ -27,6 +27,9 @@ std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::
 /// @throws DataError naming file and member
 SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz);
 
+/// `audit_frames` of them, under the gravity that they were simulated with.
+Audit audit_recorded(const motion::Clip& clip, const Npz& npz);
+
 struct AuditedFile {
   std::string path;
   std::vector<Audit> audits;

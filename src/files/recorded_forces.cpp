@@ -48,4 +48,10 @@ bool remove_recorded(motion::Clip& clip) {
          }) > 0;
 }
 
+std::string other_reading(const import::ReadConfig& read) {
+  const std::string options = read.text();
+  return options.empty() ? ""
+                         : "one that is read with other options than it was simulated with (" + options + ")";
+}
+
 }  // namespace mimicx::files

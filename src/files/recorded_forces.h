@@ -5,8 +5,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/containers.h"
+#include "import/motion_file.h"
 #include "motion/clip.h"
 
 namespace mimicx::files {
@@ -27,6 +29,8 @@ double recorded_gravity(const motion::Clip& clip);
 /// Removes what a simulation recorded beside the poses: joint positions and velocities, forces, weight. They
 /// do not belong to a motion of another body, another frame rate or other axes. @return whether there was any
 bool remove_recorded(motion::Clip& clip);
+/// Why recorded forces do not belong to a motion that was read so; empty with the default reading.
+std::string other_reading(const import::ReadConfig& read);
 
 /// Length of an arrow per force that it shows.
 inline constexpr double kMetresPerNewton = 0.001;

@@ -328,6 +328,10 @@ std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& point
 /// Adds a decision where most keypoints are not used: they belong to face and fingers, or have other names.
 void say_what_is_left_aside(const std::vector<std::string>& names, Clip& clip) {
   constexpr int kTold = 3;
+  const auto used = std::count_if(names.begin(), names.end(), [](const std::string& name) {
+    return place_of_keypoint(name).has_value();
+  });
+  if (2 * used >= std::ssize(names)) return;
   const std::vector<std::string> detector = keypoint_names(KeypointSet::kCoco133);
   std::string unknown;
   int others = 0;
@@ -335,14 +339,10 @@ void say_what_is_left_aside(const std::vector<std::string>& names, Clip& clip) {
     if (!place_of_keypoint(name) && std::find(detector.begin(), detector.end(), name) == detector.end() &&
         ++others <= kTold)
       unknown += (unknown.empty() ? "" : ", ") + name;
-  const auto used = std::count_if(names.begin(), names.end(), [](const std::string& name) {
-    return place_of_keypoint(name).has_value();
-  });
-  if (2 * used < std::ssize(names))
-    clip.decisions.push_back("keypoints: " + std::to_string(used) + " of " + std::to_string(names.size()) +
-                             " have a place on the body; the others (" +
-                             (others == 0 ? "face, fingers" : unknown + (others > kTold ? ", …" : "")) +
-                             ") are not used");
+  clip.decisions.push_back("keypoints: " + std::to_string(used) + " of " + std::to_string(names.size()) +
+                           " have a place on the body; the others (" +
+                           (others == 0 ? "face, fingers" : unknown + (others > kTold ? ", …" : "")) +
+                           ") are not used");
 }
 
 Keypoints read_keypoints(const Npz& npz, Clip& clip) {

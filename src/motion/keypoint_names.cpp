@@ -61,7 +61,7 @@ std::string known_keypoint_name(const std::string& name) {
   for (const auto& [letter, side] : {std::pair("l_", "left_"), {"r_", "right_"}})
     if (plain.starts_with(letter)) plain = side + plain.substr(2);
   if (plain == "mid_hip") plain = kBodyNames[kPelvis];
-  const std::vector<std::string> coco = keypoint_names(KeypointSet::kCoco17);
+  static const std::vector<std::string> coco = keypoint_names(KeypointSet::kCoco17);
   const bool known = place_of_keypoint(plain) || std::find(coco.begin(), coco.end(), plain) != coco.end();
   return known ? plain : name;
 }

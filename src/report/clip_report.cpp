@@ -152,11 +152,8 @@ Audits audits_of(const ClipFiles& files, double fps) {
     if (const motion::Clip clip = motion::resampled(*files.input, fps); clip.frames() > 2)
       audits.input = audit::needs_on_floor(clip);
   if (files.cleaned.body_model == "mimicx" && files.members.has("joint_torques") &&
-      files.cleaned.frames() > 1) {
-    physics::SimulationConfig simulation;
-    simulation.gravity = files::recorded_gravity(files.cleaned);
-    audits.cleaned = audit::audit_frames(audit::simulated_frames(files.cleaned, files.members), simulation);
-  }
+      files.cleaned.frames() > 1)
+    audits.cleaned = audit::audit_recorded(files.cleaned, files.members);
   return audits;
 }
 
