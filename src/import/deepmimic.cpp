@@ -129,6 +129,18 @@ std::vector<double> read_frames(TextInput& in, SkeletonMotion& motion) {
   return durations;
 }
 
+/// Throws where the rotations of joints, which are small in most frames, are large as they are read and would
+/// be small as x, y, z, w.
+void require_real_part_first(const SkeletonMotion& motion) {
+  double first = 0.0, last = 0.0;
+  for (const auto& frame : motion.rotation)
+    for (std::size_t j = 1; j < humanoid().size(); ++j)
+      if (humanoid()[j].numbers == 4) first += std::abs(frame[j].w()), last += std::abs(frame[j].z());
+  if (last > first)
+    throw DataError(motion.path, "Frames", "quaternions as w, x, y, z",
+                    "ones whose last number is the largest (x, y, z, w?)");
+}
+
 /// The median duration counts: the last frame's is 0 in most files.
 void set_fps(std::vector<double> durations, SkeletonMotion& motion) {
   if (durations.size() > 1) durations.pop_back();
@@ -171,6 +183,7 @@ SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::pat
   if (const std::string_view rest = in.word(); !rest.empty())
     in.fail_with("nothing after the closing brace", "'" + printable(rest) + "'");
   if (durations.empty()) throw DataError(motion.path, "", "a list of Frames", "none");
+  require_real_part_first(motion);
   if (fps)
     motion.fps = *fps;
   else

@@ -87,6 +87,37 @@ void require_bones(const PerFrame<Positions>& frames, const std::string& path) {
                         " % (rotations? normalised numbers?)");
 }
 
+/// Throws where left and right bones have other lengths, as they do where the joints have another order.
+void require_our_order(const PerFrame<Positions>& frames, const std::string& path) {
+  constexpr double kMostDifference = 0.2;  // of the longer one, in the median over the pairs
+  const auto length = [&](int b) {
+    double sum = 0.0;
+    for (const Positions& p : frames) sum += (p[b] - p[kParents[b]]).norm();
+    return sum;
+  };
+  std::vector<double> differences;
+  for (int b = 1; b < kBodies; ++b)
+    if (is_right(b)) {
+      const double left = length(b - 1), right = length(b), longer = std::max(left, right);
+      differences.push_back(longer > 0.0 ? std::abs(left - right) / longer : 0.0);
+    }
+  if (median(differences) > kMostDifference)
+    throw DataError(
+        path, "",
+        "joints in SMPL's order (pelvis, left hip, right hip, spine1, left knee, …), whose left and "
+        "right bones are alike",
+        "lengths that differ by " + std::to_string(std::lround(100.0 * median(differences))) +
+            " % (another order?)");
+}
+
+/// How many rows are left without those at the end that are all zeros or all not numbers, with which batches
+/// are padded.
+Eigen::Index without_padding(const Eigen::MatrixXd& rows) {
+  Eigen::Index count = rows.rows();
+  while (count > 0 && (rows.row(count - 1).isZero(0.0) || rows.row(count - 1).array().isNaN().all())) --count;
+  return count;
+}
+
 /// Warnings of joints at the origin in some frames, where a tracker has not seen them. The pelvis may be
 /// there.
 std::vector<std::string> origin_warnings(const PerFrame<Positions>& frames) {
@@ -238,12 +269,16 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   const bool features = layout.features;
   if (array.type == NpyArray::Type::kText || layout.frames == 0)
     throw DataError(path, "", "at least one frame of numbers", "none");
-  const Eigen::MatrixXd rows = rows_of(array, layout);
+  Eigen::MatrixXd rows = rows_of(array, layout);
+  const Eigen::Index padded = rows.rows(), used = without_padding(rows);
+  if (used == 0) throw DataError(path, "", "at least one frame that is not all zeros", "none");
+  rows.conservativeResize(used, Eigen::NoChange);
   for (Eigen::Index t = 0; t < rows.rows(); ++t)
     if (!rows.row(t).allFinite() || rows.row(t).cwiseAbs().maxCoeff() > 1e7)
       throw DataError(path, "frame " + std::to_string(t), "finite numbers within ±1e7", "one that is not");
   const PerFrame<Positions> frames = features ? positions_of_features(rows, path) : positions_of(rows);
   require_bones(frames, path);
+  require_our_order(frames, path);
   const Character character = make_character();
   const Quaterniond rest = rest_frame(character);
   SkeletonMotion motion;
@@ -266,6 +301,9 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
   }
   motion.decisions.emplace_back(features ? "frame rate: 20 fps, that of HumanML3D; --fps overrides"
                                          : kAssumedRate);
+  if (used < padded)
+    motion.decisions.push_back("frames: the last " + std::to_string(padded - used) + " of " +
+                               std::to_string(padded) + " are empty (padding) and are left out");
   return motion;
 }
 

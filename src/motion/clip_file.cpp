@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/number_text.h"
-#include "motion/keypoint_check.h"
-#include "motion/keypoint_names.h"
+#include "motion/keypoint_members.h"
+#include "motion/npz_member.h"
 
 namespace mimicx::motion {
 namespace {
@@ -29,53 +29,6 @@ std::string found_among(const Names& names, const Npz& npz) {
     if (npz.has(name)) return name;
   return {};
 }
-
-std::string text_of_shape(const std::vector<std::size_t>& shape) {
-  std::string text;
-  for (std::size_t i = 0; i < shape.size(); ++i) text += (i ? ", " : "") + std::to_string(shape[i]);
-  return "shape (" + text + ")";
-}
-
-/// A member as doubles, with its place for error messages.
-struct Member {
-  const Npz& npz;
-  std::string key;
-  const NpyArray& array;
-  std::vector<double> values;
-
-  Member(const Npz& archive, const std::string& name) : npz(archive), key(name), array(archive.at(name)) {
-    if (array.type == NpyArray::Type::kText) fail("numbers", "text");
-    values = array.to_double();
-  }
-  [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
-    throw DataError(npz.path, key, expected, found);
-  }
-  std::string shape() const { return text_of_shape(array.shape); }
-  void expect_shape(const std::vector<std::size_t>& expected) const {
-    if (array.shape != expected) fail(text_of_shape(expected), shape());
-  }
-  /// Number of rows; a row may have further dimensions.
-  std::size_t rows() const { return array.shape.empty() ? 0 : array.shape[0]; }
-  /// Numbers in a row.
-  std::size_t columns() const {
-    std::size_t product = 1;
-    for (std::size_t i = 1; i < array.shape.size(); ++i) product *= array.shape[i];
-    return array.shape.size() < 2 ? 0 : product;
-  }
-  /// The first `used` of the columns are finite.
-  void expect_finite_columns(std::size_t used) const {
-    for (std::size_t r = 0; r < rows(); ++r)
-      for (std::size_t c = 0; c < used; ++c)
-        if (!std::isfinite(values[r * columns() + c])) fail_not_finite(r);
-  }
-  void expect_finite() const {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i])) fail_not_finite(i / (values.size() / std::max<std::size_t>(rows(), 1)));
-  }
-  [[noreturn]] void fail_not_finite(std::size_t row) const {
-    fail("finite numbers", "one that is not, in row " + std::to_string(row));
-  }
-};
 
 /// A text; the first of several that are equal. None where the member is something else.
 std::optional<std::string> member_text(const Npz& npz, const std::string& key) {
@@ -295,99 +248,6 @@ void check_joint_names(const Npz& npz) {
                       i < names.size() ? "'" + names[i] + "'" : "the end of the list");
 }
 
-const std::vector<std::string> kKeypointMembers = {"keypoints_2d", "keypoint_names", "camera_intrinsics",
-                                                   "camera_extrinsics"};
-
-/// The file's names, or without any the names of the set with this number of keypoints. Unreadable names
-/// (pickled ones) are an error.
-std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& points, Clip& clip) {
-  const auto& unread = npz.unsupported();
-  const bool unreadable = std::any_of(unread.begin(), unread.end(),
-                                      [](const auto& member) { return member.first == "keypoint_names"; });
-  if (npz.has("keypoint_names") || unreadable) {
-    std::vector<std::string> names = npz.at("keypoint_names").text;
-    for (std::string& name : names) name = known_keypoint_name(name);
-    return names;
-  }
-  if (points.array.shape.size() != 3) points.fail("shape (frames, keypoints, 3)", points.shape());
-  const std::size_t count = points.array.shape[1];
-  const std::optional<KeypointSet> set = keypoint_set_of(count);
-  if (!set)
-    throw DataError(
-        npz.path, "keypoint_names",
-        "the keypoints' names (optional for 22: the body's joints; 17: COCO; 133: COCO-WholeBody)",
-        "none for " + std::to_string(count) + " keypoints");
-  const char* taken_for = *set == KeypointSet::kJoints22 ? "the 22 joints"
-                          : *set == KeypointSet::kCoco17 ? "those of COCO"
-                                                         : "those of COCO-WholeBody";
-  clip.decisions.push_back("keypoints: " + std::to_string(count) + " without names, taken for " + taken_for +
-                           " in their order");
-  return keypoint_names(*set);
-}
-
-/// Adds a decision where most keypoints are not used: they belong to face and fingers, or have other names.
-void say_what_is_left_aside(const std::vector<std::string>& names, Clip& clip) {
-  constexpr int kTold = 3;
-  const auto used = std::count_if(names.begin(), names.end(), [](const std::string& name) {
-    return place_of_keypoint(name).has_value();
-  });
-  if (2 * used >= std::ssize(names)) return;
-  const std::vector<std::string> detector = keypoint_names(KeypointSet::kCoco133);
-  std::string unknown;
-  int others = 0;
-  for (const std::string& name : names)
-    if (!place_of_keypoint(name) && std::find(detector.begin(), detector.end(), name) == detector.end() &&
-        ++others <= kTold)
-      unknown += (unknown.empty() ? "" : ", ") + name;
-  clip.decisions.push_back("keypoints: " + std::to_string(used) + " of " + std::to_string(names.size()) +
-                           " have a place on the body; the others (" +
-                           (others == 0 ? "face, fingers" : unknown + (others > kTold ? ", …" : "")) +
-                           ") are not used");
-}
-
-Keypoints read_keypoints(const Npz& npz, Clip& clip) {
-  const std::size_t frames = clip.rotations.size();
-  const Member points(npz, "keypoints_2d");
-  Keypoints out;
-  out.names = read_keypoint_names(npz, points, clip);
-  say_what_is_left_aside(out.names, clip);
-  const std::size_t count = out.names.size();
-  const Member intrinsics(npz, "camera_intrinsics"), extrinsics(npz, "camera_extrinsics");
-  points.expect_shape({frames, count, 3});
-  intrinsics.expect_shape({3, 3});
-  intrinsics.expect_finite();
-  const bool moving = extrinsics.array.shape.size() == 3;
-  extrinsics.expect_shape(moving ? std::vector<std::size_t>{frames, 4, 4} : std::vector<std::size_t>{4, 4});
-  extrinsics.expect_finite();
-  out.uvc.assign(frames, std::vector<Vector3d>(count));
-  for (std::size_t i = 0; i < frames * count; ++i) {
-    const Vector3d uvc = Eigen::Map<const Vector3d>(points.values.data() + 3 * i);
-    out.uvc[i / count][i % count] = uvc.allFinite() ? uvc : Vector3d::Zero();
-  }
-  out.intrinsics = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(intrinsics.values.data());
-  for (std::size_t i = 0; i < (moving ? frames : 1); ++i)
-    out.extrinsics.push_back(
-        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(extrinsics.values.data() + 16 * i));
-  return out;
-}
-
-void add_keypoints(Npz& npz, const Keypoints& k) {
-  const std::size_t frames = k.uvc.size(), count = k.names.size();
-  std::vector<double> values;
-  for (const auto& frame : k.uvc)
-    for (const Vector3d& uvc : frame) values.insert(values.end(), uvc.data(), uvc.data() + 3);
-  npz.set("keypoints_2d", NpyArray::from_double({frames, count, 3}, values.data()));
-  npz.set("keypoint_names", NpyArray::from_text(k.names));
-  npz.set("camera_intrinsics", from_matrix(k.intrinsics));
-  values.clear();
-  for (const Eigen::Matrix4d& e : k.extrinsics)
-    for (int i = 0; i < 16; ++i) values.push_back(e(i / 4, i % 4));
-  const std::size_t poses = k.extrinsics.size();
-  npz.set("camera_extrinsics", NpyArray::from_double(poses == 1 ? std::vector<std::size_t>{4, 4}
-                                                                : std::vector<std::size_t>{poses, 4, 4},
-                                                     values.data()));
-}
-
 /// A passed-through member, or nullptr.
 const NpyArray* passed_on(const Clip& clip, const std::string& key) {
   for (const auto& [name, array] : clip.passthrough)
@@ -528,13 +388,7 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
                 "surface_model_type", "smpl_scaling", kSceneMember};
   for (const Names& names : {kPoses, kRoot, kBody, kTrans, kRates, kBetaNames})
     used.insert(used.end(), names.begin(), names.end());
-  if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
-    clip.keypoints = read_keypoints(npz, clip);
-    check_keypoints(npz.path, *clip.keypoints, clip.decisions);
-    used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
-  } else if (npz.has("keypoints_2d")) {
-    clip.warnings.push_back("keypoints_2d without camera_intrinsics and camera_extrinsics are not used");
-  }
+  if (read_keypoints(npz, clip)) used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
   for (const auto& [key, array] : npz.members())
     if (std::find(used.begin(), used.end(), key) == used.end()) clip.passthrough.emplace_back(key, array);
   for (const auto& [key, why] : npz.unsupported())

@@ -126,6 +126,16 @@ TEST(DeepMimic, ReportsErrorsWithTheirLine) {
   expect_refused_clip(nan.replace(nan.find("0.9"), 3, "nan"), "line 5", "number 3 of the 44 of frame 0");
 }
 
+TEST(DeepMimic, QuaternionsAsXyzwAreRefused) {
+  std::vector<double> row = rest_row();
+  std::size_t c = 4;
+  for (const int numbers : {4, 4, 4, 4, 1, 4, 4, 1, 4, 1, 4, 4, 1}) {
+    if (numbers == 4) std::swap(row[c], row[c + 3]);
+    c += static_cast<std::size_t>(numbers);
+  }
+  expect_refused_clip(json({row, row}), "Frames", "x, y, z, w?");
+}
+
 TEST(DeepMimic, BoundsTheNestingOfBrackets) {
   expect_refused_clip("{\"A\": " + std::string(1000000, '['), "line 1", "64 levels");
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -319,6 +320,46 @@ TEST(JointPositions, NumbersWhoseBonesChangeTheirLengthsAreRefused) {
   for (double& value : values) value = random.normal();
   EXPECT_THROW(skeleton_of_positions(NpyArray::from_double({30, kBodies, 3}, values.data()), "a", "a.npy"),
                DataError);
+}
+
+// LAFAN1's: each leg from hip to toe, then trunk and head, then each arm.
+TEST(JointPositions, AnotherOrderOfTheJointsIsRefused) {
+  constexpr std::array kOrder = {kPelvis,       kLeftHip,   kLeftKnee,   kLeftAnkle,   kLeftFoot,
+                                 kRightHip,     kRightKnee, kRightAnkle, kRightFoot,   kSpine1,
+                                 kSpine2,       kSpine3,    kNeck,       kHead,        kLeftCollar,
+                                 kLeftShoulder, kLeftElbow, kLeftWrist,  kRightCollar, kRightShoulder,
+                                 kRightElbow,   kRightWrist};
+  for (const char* kind : {"walk", "squat", "punch", "kick", "dance", "sidestep"}) {
+    const NpyArray ours = positions_of(truth(kind));
+    const std::vector<double> values = ours.to_double();
+    std::vector<double> other(values.size());
+    for (std::size_t i = 0; i < values.size() / 3; ++i)
+      std::copy_n(&values[3 * (i / kBodies * kBodies + static_cast<std::size_t>(kOrder[i % kBodies]))], 3,
+                  &other[3 * i]);
+    try {
+      skeleton_of_positions(NpyArray::from_double(ours.shape, other.data()), "a", "a.npy");
+      ADD_FAILURE() << kind << ": not refused";
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("order"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(JointPositions, PaddingAtTheEndIsLeftOut) {
+  const NpyArray positions = positions_of(truth("walk"));
+  for (const NpyArray& whole : {positions, features_of(positions)})
+    for (const double empty : {0.0, std::nan("")}) {
+      std::vector<double> values = whole.to_double();
+      NpyArray padded = whole;
+      padded.shape[0] += 7;
+      values.resize(values.size() + 7 * values.size() / whole.shape[0], empty);
+      const SkeletonMotion want = skeleton_of_positions(whole, "a", "a.npy"),
+                           read = skeleton_of_positions(NpyArray::from_double(padded.shape, values.data()),
+                                                        "a", "a.npy");
+      EXPECT_EQ(read.translation, want.translation);
+      EXPECT_EQ(read.decisions.back(), "frames: the last 7 of " + std::to_string(padded.shape[0]) +
+                                           " are empty (padding) and are left out");
+    }
 }
 
 }  // namespace

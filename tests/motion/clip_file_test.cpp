@@ -558,6 +558,57 @@ TEST(ClipFile, UndetectedKeypointsGetConfidenceZero) {
   EXPECT_EQ(read_clip(path).keypoints->uvc[2][1], Vector3d(0, 0, 0));
 }
 
+TEST(ClipFile, OtherShapesOfTheSameCameraAreTheSame) {
+  const Clip want = test::clip_with_everything();
+  const Npz usual = to_npz(want);
+  const Matrix3d& k = want.keypoints->intrinsics;
+  const std::size_t frames = want.rotations.size();
+  const std::vector<double> four = {k(0, 0), k(1, 1), k(0, 2), k(1, 2)},
+                            once = usual.at("camera_intrinsics").to_double();
+  std::vector<double> repeated;
+  for (std::size_t t = 0; t < frames; ++t) repeated.insert(repeated.end(), once.begin(), once.end());
+  for (const NpyArray& intrinsics :
+       {NpyArray::from_double({4}, four.data()), NpyArray::from_double({1, 3, 3}, once.data()),
+        NpyArray::from_double({frames, 3, 3}, repeated.data())}) {
+    Npz npz = usual;
+    npz.set("camera_intrinsics", intrinsics);
+    EXPECT_EQ(read(npz).keypoints->intrinsics, k);
+  }
+  repeated.back() += 1.0;
+  Npz zoomed = usual;
+  zoomed.set("camera_intrinsics", NpyArray::from_double({frames, 3, 3}, repeated.data()));
+  expect_refusal(zoomed, "another one in frame " + std::to_string(frames - 1));
+
+  std::vector<double> rows, rows_of_frames;
+  const Eigen::Matrix4d camera = want.keypoints->extrinsics[0];
+  for (int i = 0; i < 12; ++i) rows.push_back(camera(i / 4, i % 4));
+  for (std::size_t t = 0; t < frames; ++t)
+    rows_of_frames.insert(rows_of_frames.end(), rows.begin(), rows.end());
+  Npz npz = usual;
+  npz.set("camera_extrinsics", NpyArray::from_double({3, 4}, rows.data()));
+  ASSERT_EQ(read(npz).keypoints->extrinsics.count(), 1);
+  EXPECT_EQ(read(npz).keypoints->extrinsics[0], camera);
+  npz.set("camera_extrinsics", NpyArray::from_double({frames, 3, 4}, rows_of_frames.data()));
+  ASSERT_EQ(read(npz).keypoints->extrinsics.size(), frames);
+  EXPECT_EQ(read(npz).keypoints->extrinsics[1], camera);
+}
+
+TEST(ClipFile, KeypointsWithoutConfidencesCountWhereTheyAreSeen) {
+  Npz npz = with_unnamed_keypoints(17);
+  std::vector<double> uv;
+  for (std::size_t i = 0; i < 3 * 17; ++i) uv.insert(uv.end(), {100.0 + static_cast<double>(i), 50.0});
+  uv[0] = uv[1] = 0.0;
+  uv[3] = std::numeric_limits<double>::quiet_NaN();
+  npz.set("keypoints_2d", NpyArray::from_double({3, 17, 2}, uv.data()));
+  const Clip clip = read(npz);
+  EXPECT_EQ(clip.keypoints->uvc[0][0], Vector3d(0, 0, 0));
+  EXPECT_EQ(clip.keypoints->uvc[0][1], Vector3d(0, 0, 0));
+  EXPECT_EQ(clip.keypoints->uvc[2][16], Vector3d(150, 50, 1));
+  EXPECT_TRUE(std::any_of(clip.decisions.begin(), clip.decisions.end(), [](const std::string& line) {
+    return line.starts_with("keypoints: without confidences");
+  }));
+}
+
 TEST(RealFiles, AreRead) {
   const fs::path motions = fs::path(MIMICX_SHARED_DIR) / "motions";
   if (!fs::exists(motions)) GTEST_SKIP() << "no folder of real motions here";

@@ -1,0 +1,20 @@
+/// Keypoints and their camera as members of an archive (docs/formats.md §1).
+#pragma once
+
+#include "core/npz/npz_archive.h"
+#include "motion/clip.h"
+
+namespace mimicx::motion {
+
+/// Names of the members.
+extern const std::vector<std::string> kKeypointMembers;
+
+/// Reads and checks the keypoints, or warns where the archive has some without a camera.
+/// @param clip  with its rotations; gets keypoints, decisions and warnings
+/// @return whether there were keypoints with a camera
+/// @throws DataError naming file and member
+bool read_keypoints(const Npz& npz, Clip& clip);
+
+void add_keypoints(Npz& npz, const Keypoints& keypoints);
+
+}  // namespace mimicx::motion
