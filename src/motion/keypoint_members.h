@@ -1,4 +1,4 @@
-/// Keypoints and their camera as members of an archive (docs/formats.md §1).
+/// Keypoints and their camera as members of an archive (docs/formats.md).
 #pragma once
 
 #include "core/npz/npz_archive.h"
