@@ -6,7 +6,8 @@
 /// are wrong for a state a few millimetres away with other contacts. The gains here are softened in two ways:
 /// their derivatives are smoothed over some centimetres and degrees (differences.h), and residuals have a
 /// high weight. One sweep goes over the whole motion in blocks of frames, so that memory does not grow with
-/// the length of the motion, apart from the gains themselves (39 kB per frame).
+/// the length of the motion, apart from what it returns: 39 kB of gains per frame and, if asked for, 12 kB of
+/// curvature.
 #pragma once
 
 #include "control/ilqr.h"

@@ -28,9 +28,12 @@ struct Attempt {
   }
 };
 
-/// Of a failed attempt and its repetition: the repetition if it did not fail, otherwise the longer one.
+/// Of a failed attempt and its repetition: the repetition if it followed to the end, otherwise the longer
+/// one, with the repetition's ending.
 HorizonResult better_of(HorizonResult lost, HorizonResult again) {
-  return again.ending != Ending::kLost || again.motion.size() > lost.motion.size() ? again : lost;
+  if (again.ending == Ending::kFollowed || again.motion.size() > lost.motion.size()) return again;
+  lost.ending = again.ending;
+  return lost;
 }
 
 List<Array<float, kAssistance>> assistance_in(const Trajectory& motion) {

@@ -33,8 +33,8 @@ struct PlanConfig {
 
 /// The failure of a plan.
 struct Failure {
-  int frame = -1;       ///< first frame that no window reached
-  int body = -1;        ///< body with the largest distance from its goal in that window
+  int frame = -1;  ///< first frame that no window reached
+  int body = -1;   ///< body with the largest distance from its goal there; -1: the window was cut before it
   double distance = 0;  ///< its distance, m
 };
 

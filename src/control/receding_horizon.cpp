@@ -93,7 +93,7 @@ void solve_window(const Task& task, bool first, Window& window, HorizonResult& r
 /// Records the failure of a window: its first frame with a body too far off, or the frame after its end if it
 /// was cut.
 void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) {
-  int t = 0, body = 0;
+  int t = 0, body = -1;
   double distance = 0.0;
   while (t < plan.size() && distance <= task.config.failure_distance) {
     ++t;
@@ -107,11 +107,12 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
       body = static_cast<int>(i);
     }
   }
-  const int frame = plan.begin + t + (distance > task.config.failure_distance ? 0 : 1);
+  const bool too_far = distance > task.config.failure_distance;
+  const int frame = plan.begin + t + (too_far ? 0 : 1);
   if (frame < result.lost_frame) return;
   result.lost_frame = frame;
-  result.lost_body = body;
-  result.lost_distance = distance;
+  result.lost_body = too_far ? body : -1;
+  result.lost_distance = too_far ? distance : 0.0;
 }
 
 /// State of the search over window lengths.
@@ -158,6 +159,7 @@ HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConf
   while (motion.begin + motion.size() < end) {
     if (control.should_stop && control.should_stop()) {
       result.ending = Ending::kStopped;
+      if (search.longest.size() > motion.size()) motion = search.longest;
       return result;
     }
     const int begin = motion.begin + motion.size();

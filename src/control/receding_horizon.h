@@ -37,7 +37,7 @@ struct HorizonResult {
   Trajectory motion;  ///< as far as it was followed; after a failure the longest attempt
   Ending ending = Ending::kFollowed;
   int lost_frame = -1;       ///< first frame that no window reached; of several failures the latest frame
-  int lost_body = -1;        ///< body with the largest distance from the goal there
+  int lost_body = -1;        ///< body with the largest distance from the goal there; -1: the window was cut
   double lost_distance = 0;  ///< its distance, m
   int iterations = 0;
   int linearised = 0;  ///< frames, over all iterations
@@ -47,7 +47,8 @@ struct HorizonResult {
 /// Follows the cost's goal from the last state of `start` to frame `end`.
 /// @param start  at least one state, with the controls that led there
 /// @param guess  initial guess from frame 0 on; after its end, and without one, a frame starts with the
-///               previous controls and the goal's state
+/// controls
+///               of the window's frame before it (the first one: none) and the goal's state
 HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConfig& config,
                                 const PlanControl& control, Trajectory start, int end,
                                 const Trajectory& guess = {});

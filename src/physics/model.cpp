@@ -46,15 +46,12 @@ void fill_joints(const Character& c, Model<Real>& m) {
 
 template <class Real>
 void fill_contacts(const Character& c, Model<Real>& m) {
-  for (int body = 0; body < kBodies; ++body) {
-    m.contact_begin[body] = m.contacts.count();
+  for (int body = 0; body < kBodies; ++body)
     for (int k = 0; k < c.contact_points.count(); ++k)
       if (c.contact_points[k].body == body) {
         m.contacts.push_back(c.contact_points[k]);
         m.contact_source.push_back(k);
       }
-  }
-  m.contact_begin[kBodies] = m.contacts.count();
   m.capsule = c.capsule;
   m.self_pairs = c.self_pairs;
   for (int body = 0; body < kBodies; ++body)

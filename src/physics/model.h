@@ -64,7 +64,6 @@ struct Model {
   PerBody<Vec3<Real>> range_inverse;  ///< 1 / (2 sin(half range / 2)) per axis
 
   List<ContactPoint> contacts;            ///< sorted by body
-  Array<int, kBodies + 1> contact_begin;  ///< contacts of body i: [contact_begin[i], contact_begin[i+1])
   List<int> contact_source;               ///< index in Character::contact_points
   PerBody<Capsule> capsule;
   std::vector<std::array<int, 2>> self_pairs;

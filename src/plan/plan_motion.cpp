@@ -139,8 +139,12 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
   if (made.ending == record::SequenceEnding::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);
-  if (plan.failure)
-    made.reason = failure_in_words(*plan.failure, job.needs, made.assistance, made.after.forces);
+  if (plan.failure) {
+    const auto& forces = made.after.forces;  // after the plan's end those of a body without controls
+    made.reason =
+        failure_in_words(*plan.failure, job.needs, made.assistance,
+                         {forces.begin(), forces.begin() + std::min(plan.states.size(), std::ssize(forces))});
+  }
   if (planned) *planned = std::move(stored->plan);
   return made;
 }

@@ -1,4 +1,4 @@
-/// How motions are planned, with every setting by its name: for manifests and `--set`.
+/// How motions are planned, with the settings by their names: for manifests and `--set`.
 #pragma once
 
 #include "control/plan.h"
@@ -20,7 +20,8 @@ struct PlanningConfig {
   physics::SimulationConfig simulation;
 };
 
-/// core/setting.h. The factors of single bodies are not among them.
+/// core/setting.h. Constants of the method and no settings: the factors of single bodies, the weights of
+/// assistive forces, the limits of closing gaps and of backtracks.
 void visit_settings(MotionPlanConfig& config, const auto& visit) {
   auto& w = config.weights;
   visit("plan_position", w.position, 0, 1e9, "weight of a body's distance, 1/m²");

@@ -173,5 +173,27 @@ TEST(Plan, StopsOnRequest) {
   EXPECT_EQ(static_cast<int>(plan.states.size()), settled + 1);
 }
 
+// Assisted stages and the gentle attempt that follow a failure start anew.
+TEST(Plan, MoreTimeGivesNoShorterPlan) {
+  const System system = balloon();
+  PlanConfig config = lost_soon();
+  config.horizon.budget = 4;
+  int windows = 0;
+  const std::size_t whole =
+      make_plan(system, config, {.threads = 2, .should_stop = [&] { return ++windows < 0; }}).states.size();
+  std::size_t longest = 0;
+  for (int k = 1; k < 8; ++k) {
+    int asked = 0;
+    const Plan plan =
+        make_plan(system, config, {.threads = 2, .should_stop = [&] { return ++asked > windows * k / 8; }});
+    EXPECT_EQ(plan.ending, Ending::kStopped) << k;
+    EXPECT_GE(plan.states.size(), longest) << k;
+    EXPECT_EQ(plan.residuals.size() + 1, plan.states.size()) << k;
+    longest = plan.states.size();
+  }
+  EXPECT_LE(longest, whole);
+  EXPECT_GT(longest, 10u);
+}
+
 }  // namespace
 }  // namespace mimicx::control

@@ -74,7 +74,7 @@ struct JointColumns {
     own_angular = carried.angular - carried.moment.cross(v) - carried.inertia * w_parent;
   }
 
-  /// (4) of docs/control.md §6: an angular momentum about the joint centre seen from the centre of mass.
+  /// docs/control.md §6: an angular momentum about the joint centre seen from the centre of mass.
   Vector6d about_com(const Vector3d& linear, const Vector3d& angular) const {
     Vector6d out;
     out << linear, angular + (p - com).cross(linear);

@@ -10,29 +10,6 @@
 namespace mimicx::fit {
 namespace {
 
-/// Whether a body belongs to a limb: below shoulder or hip.
-bool is_of_a_limb(int body) {
-  switch (body) {
-    case kLeftHip:
-    case kLeftKnee:
-    case kLeftAnkle:
-    case kLeftFoot:
-    case kLeftShoulder:
-    case kLeftElbow:
-    case kLeftWrist:
-    case kRightHip:
-    case kRightKnee:
-    case kRightAnkle:
-    case kRightFoot:
-    case kRightShoulder:
-    case kRightElbow:
-    case kRightWrist:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// The keypoints with a position on the body, each with the index of its mirror point.
 std::vector<FitPoint> points_among(const std::vector<std::string>& names, const Character& character) {
   std::vector<FitPoint> points;
@@ -40,7 +17,7 @@ std::vector<FitPoint> points_among(const std::vector<std::string>& names, const 
     if (const auto place = motion::place_of_keypoint(names[k]))
       points.push_back({place->body, k, points.size(), motion::place_on(character, *place)});
   for (FitPoint& point : points) {
-    if (!is_of_a_limb(point.body)) continue;
+    if (kLimbOf[point.body] == 0) continue;  // of the trunk
     const std::string other = motion::mirrored_name(names[point.column]);
     for (std::size_t i = 0; i < points.size(); ++i)
       if (names[points[i].column] == other) point.mirror = i;

@@ -26,7 +26,7 @@ constexpr double kDoubtful = 1.5;         ///< % of the box; of detectors and es
 constexpr double kContradiction = 3.0;    ///< the same: then the keypoints are ignored
 constexpr double kFartherAway = 1.5;      ///< times as far from the camera; estimators err by less
 constexpr double kFarBefore = 30.0;       ///< % of the box, before the fit; of estimators 5 to 15
-constexpr double kFarAhead = 2.0;         ///< frames; of detectors and estimators less than one
+constexpr double kFarAhead = 2.0;         ///< frames at 30 fps; of detectors and estimators less than one
 constexpr double kOtherPose = 100.0;      ///< mm about the pelvis, mean of the joints; estimators err by half
 constexpr double kSidesWrong = 0.5;       ///< of the frames; detectors exchange sides in a few
 constexpr double kToldSceneShift = 0.02;  ///< m
@@ -282,7 +282,7 @@ void report_distance(const motion::Clip& before, const motion::Clip& after, FitR
 
 void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
   report.lead_frames = state.g[kLead];
-  if (std::abs(report.lead_frames) > kFarAhead)
+  if (std::abs(report.lead_frames) * 30.0 > kFarAhead * problem.fps)
     report.notes.push_back(
         formatted("the keypoints are %.1f frames or more %s the motion: are both of the same "
                   "frames of the video?",

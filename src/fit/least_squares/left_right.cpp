@@ -11,10 +11,7 @@ constexpr double kFar = 0.15;        ///< heights of the box; cap of a distance 
 constexpr double kBetter = 0.4;      ///< a swap must reduce a limb's cost to this share …
 constexpr double kFarEnough = 0.03;  ///< … and its mean distance must be above this, heights of the box
 
-bool is_leg(int body) {
-  return body == kLeftHip || body == kRightHip || body == kLeftKnee || body == kRightKnee ||
-         body == kLeftAnkle || body == kRightAnkle || body == kLeftFoot || body == kRightFoot;
-}
+bool is_leg(int body) { return kLimbOf[body] == 1 || kLimbOf[body] == 2; }
 
 /// Mean offset of the detections from the prediction. Swaps do not change it.
 Eigen::Vector2d mean_offset(const std::vector<Vector3d>& detected,

@@ -193,8 +193,9 @@ void begin_in_flight(Reference& reference) {
 void add_flags(const PerFrame<bool>& other, double other_fps, double fps, PerFrame<bool>& flagged) {
   if (other.empty()) return;
   for (int t = 0; t < flagged.count(); ++t) {
+    constexpr double kRounding = 1e-6;  // frames
     const double at = t / fps * other_fps;
-    for (const double beside : {std::floor(at), std::ceil(at)})
+    for (const double beside : {std::floor(at + kRounding), std::ceil(at - kRounding)})
       if (other[std::min(static_cast<int>(beside), other.count() - 1)]) flagged[t] = true;
   }
 }
