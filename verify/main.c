@@ -18,8 +18,7 @@ static long append_file(unsigned char **block, long used, const char *path) {
     unsigned char *grown = size < 0 ? NULL : realloc(*block, (size_t)used + (size_t)size + 1);
     if (grown != NULL) *block = grown, rewind(file);
     if (grown == NULL || fread(grown + used, 1, (size_t)size, file) != (size_t)size) size = -1;
-    fclose(file);
-    return size;
+    fclose(file); return size;
 }
 /* Prints all rules, or those that fail, and the verdict. */
 static void print_verdict(const char *path, int status, const Rule *rules, int all, int has_motion) {
@@ -44,8 +43,7 @@ static void verify_file(const char *path, int all_rules) {
     if (status == BROKEN) fprintf(stderr, "%s: %s\n", path, wrong);
     else print_verdict(path, status, rules, all_rules, motion != NULL);
     if (status > worst) worst = status;
-    files++;
-    free(block);
+    files++; free(block);
 }
 /* Verifies the certificates of a folder and of the folders in it. */
 static void verify_folder(DIR *folder, const char *path) {

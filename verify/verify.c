@@ -91,8 +91,7 @@ static int hash_is(const Byte *bytes, size_t size, const Byte *expected) {
     for (size_t i = 0; i < 8; i++) tail[tail_size - 1 - i] = (Byte)((uint64_t)size * 8 >> (8 * i));
     for (size_t i = 0; i < size / 64; i++) hash_block(hash, bytes + 64 * i);
     for (size_t i = 0; i < tail_size; i += 64) hash_block(hash, tail + i);
-    for (int i = 0; i < 8; i++)
-        if (hash[i] != word_at(expected + 4 * i)) return 0;
+    for (int i = 0; i < 8; i++) if (hash[i] != word_at(expected + 4 * i)) return 0;
     return 1;
 }
 
@@ -262,21 +261,23 @@ static void check_header(Check *check) {
 }
 
 /* ---- The motion file: section "The motion file" ---- */
-/* Reads a member as an array of NumPy. A size that is missing is 1. */
-static Array read_array(const Byte *member, uint64_t size) {
-    static const char START[] = "\x93NUMPY\1\0v\0{'descr': '<f8', 'fortran_order': False, 'shape': (";
-    if (size < 128 || memcmp(member, START, sizeof START - 1) != 0 || member[127] != '\n') return NO_ARRAY;
-    const Byte *at = member + sizeof START - 1;
+/* Reads a member as an array of NumPy, of doubles (f8) or of texts of six letters (U6). A size that is missing is 1. */
+static Array read_array(const Byte *member, uint64_t size, const char *type) {
+    static const char START[] = "\x93NUMPY\1\0v\0{'descr': '<", NEXT[] = "', 'fortran_order': False, 'shape': (";
+    if (size < 128 || memcmp(member, START, 22) != 0 || memcmp(member + 22, type, 2) != 0) return NO_ARRAY;
+    if (memcmp(member + 24, NEXT, sizeof NEXT - 1) != 0 || member[127] != '\n') return NO_ARRAY;
+    const Byte *at = member + 24 + sizeof NEXT - 1;
     double sizes[2] = {1, 1};
     for (int i = 0; i < 2 && *at != ')'; i++) {
         for (sizes[i] = 0; *at >= '0' && *at <= '9'; at++) sizes[i] = 10 * sizes[i] + (*at - '0');
         if (*at == ',') at += at[1] == ' ' ? 2 : 1;
     }
-    int holds = strncmp((const char *)at, "), }", 4) == 0 && 8 * sizes[0] * sizes[1] == (double)(size - 128);
+    int holds = strncmp((const char *)at, "), }", 4) == 0 &&
+                (*type == 'U' ? 24 : 8) * sizes[0] * sizes[1] == (double)(size - 128);
     return holds ? (Array){member + 128, sizes[0], sizes[1]} : NO_ARRAY;
 }
 /* Finds NAME.npy, for which NumPy also takes NAME, from the front of a zip. */
-static Array find_array(const Byte *zip, size_t size, const char *name) {
+static Array find_array(const Byte *zip, size_t size, const char *name, const char *type) {
     Array found = {NULL, 0, 0};
     size_t length = strlen(name), copies = 0;
     for (uint64_t at = 0, end; size - at >= 30 && memcmp(zip + at, "PK\3\4", 4) == 0; at = end) {
@@ -284,18 +285,26 @@ static Array find_array(const Byte *zip, size_t size, const char *name) {
         end = start + integer_at(zip + at + 22, 4);
         if ((integer_at(zip + at + 6, 2) & 8) != 0 || integer_at(zip + at + 8, 2) != 0 || end > size) break;
         if ((name_size == length || name_size == length - 4) && memcmp(zip + at + 30, name, (size_t)name_size) == 0)
-            found = copies++ == 0 ? read_array(zip + start, end - start) : NO_ARRAY;
+            found = copies++ == 0 ? read_array(zip + start, end - start, type) : NO_ARRAY;
     }
     return found;
 }
+/* The body is ours, and no member is there from which programs take other poses, places or bones. */
+static int is_plain(const Byte *zip, size_t size) {
+    static const char *const OTHERS[] = {"root_orient.npy", "global_orient.npy", "pose_body.npy", "body_pose.npy",
+                                         "smpl_scaling.npy", "rest_joints.npy"};
+    Array model = find_array(zip, size, "body_model.npy", "U6");
+    for (int i = 0; i < COUNT(OTHERS); i++) if (find_array(zip, size, OTHERS[i], "f8").rows != 0) return 0;
+    return model.rows == 1 && memcmp(model.numbers, "m\0\0\0i\0\0\0m\0\0\0i\0\0\0c\0\0\0x\0\0", 24) == 0;
+}
 /* Rules 1, 2 and 27. The frames are compared when their states are read. The flat floor has no member of plates. */
 static void check_motion_file(Check *check, const Byte *zip, size_t size) {
-    Array poses = find_array(zip, size, "poses.npy"), places = find_array(zip, size, "trans.npy");
-    Array beta = find_array(zip, size, "betas.npy"), rate = find_array(zip, size, "mocap_framerate.npy");
-    Array plates = find_array(zip, size, "scene_plates.npy");
+    Array poses = find_array(zip, size, "poses.npy", "f8"), places = find_array(zip, size, "trans.npy", "f8");
+    Array beta = find_array(zip, size, "betas.npy", "f8"), rate = find_array(zip, size, "mocap_framerate.npy", "f8");
+    Array plates = find_array(zip, size, "scene_plates.npy", "f8");
     double frames = (double)(check->step_count / check->frame_steps + 1), m = (double)check->plate_count;
     int known = poses.rows == frames && poses.columns >= 66 && places.rows == frames && places.columns == 3 &&
-                beta.rows * beta.columns >= SHAPES && rate.rows * rate.columns == 1;
+                beta.rows * beta.columns >= SHAPES && rate.rows * rate.columns == 1 && is_plain(zip, size);
     int same = plates.rows == m && (m == 0 || plates.columns == 8);
     if (m > 0 && same) same = memcmp(plates.numbers, check->file + PLATES_START, sizeof(Plate) * (size_t)m) == 0;
     excess(check, MOTION_FILE, !hash_is(zip, size, check->file + 32));
@@ -332,14 +341,12 @@ static void read_step(Check *check, long index, Step *step) {
 static void check_integration(Check *check, const Step *step, const State *next) {
     double speed_error = length(minus(next->speed, step->speed_after));
     excess(check, POSITION, length(minus(next->place, plus(step->now.place, times(next->speed, 1 / RATE)))));
-    excess(check, VELOCITY, speed_error);
-    check->speed_sum += speed_error;
+    excess(check, VELOCITY, speed_error); check->speed_sum += speed_error;
     for (int i = 0; i < BODIES; i++) {
         Quaternion turn = product(step->now.turn[i], rotation_by(times(next->spin[i], 1 / RATE)));
         double spin_error = length(minus(next->spin[i], step->spin_after[i]));
         excess(check, ROTATION, angle_between(turn, next->turn[i]));
-        excess(check, SPIN, spin_error);
-        check->spin_sum += spin_error;
+        excess(check, SPIN, spin_error); check->spin_sum += spin_error;
     }
 }
 
@@ -413,8 +420,7 @@ static void check_ground(Check *check, const Step *step, Motion *motions) {
         if (!touches || !has_force) continue;
         compare(check, NORMAL, force.z, law);
         excess(check, SIDEWAYS, length(plus(friction, times(slip, length(friction) / fmax(length(slip), 1e-200)))));
-        check->push += positive(force.z);
-        check->pull += positive(-force.z);
+        check->push += positive(force.z); check->pull += positive(-force.z);
         check->beyond += positive(length(friction) - FRICTION * positive(force.z));
     }
 }
@@ -429,8 +435,7 @@ static void find_closest(Capsule one, Capsule two, Vec *c1, Vec *c2) {
 /* "Self contact" of two bodies. The joints need not carry its forces. */
 static void add_self_contact(Motion *one, Motion *two) {
     double one_radius = one->capsule.radius, two_radius = two->capsule.radius;
-    Vec c1, c2;
-    find_closest(one->capsule, two->capsule, &c1, &c2);
+    Vec c1, c2; find_closest(one->capsule, two->capsule, &c1, &c2);
     double distance = fmax(length(minus(c1, c2)), 1e-6), overlap = one_radius + two_radius - distance;
     if (overlap <= 0) return;
     Vec normal = times(minus(c1, c2), 1 / distance), place = plus(c2, times(normal, two_radius - overlap / 2));
@@ -456,8 +461,7 @@ static Vec range_torque(int i, Quaternion turn, Vec spin_after) {
     Vec centre = times(entrywise(row->range_centre, (Vec){1, side, side}), PI / 180);
     Quaternion q = product(inverse(rotation_by(centre)), turn);
     Vec s = entrywise(times(q.v, q.w < 0 ? -2 : 2), scale), d = entrywise(s, scale);
-    double g = length(s);
-    if (g <= 1) return NONE;
+    double g = length(s); if (g <= 1) return NONE;
     Vec spring = times(d, RANGE_K * (g - 1) * g / dot(d, d));
     return times(plus(spring, times(spin_after, RANGE_C + RANGE_K / RATE)), -1);
 }
@@ -492,8 +496,7 @@ static void check_mechanics(Check *check, const Step *step, Motion *motions) {
 
 /* Rules 8 to 26: of all steps, then of their sums. */
 static void check_steps(Check *check) {
-    Step next;
-    Motion motions[BODIES];
+    Step next; Motion motions[BODIES];
     read_step(check, 0, &next);
     for (long i = 0; i < check->step_count; i++) {
         Step step = next;

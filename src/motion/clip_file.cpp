@@ -442,7 +442,7 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
   if (clip.rest_joints) npz.set("rest_joints", rest_joints_member(*clip.rest_joints));
   add_scene(clip.scene, npz);
   if (clip.keypoints) add_keypoints(npz, *clip.keypoints);
-  if (passed_on(clip, "pose_hand")) {  // readers of SMPL-X files expect these
+  if (passed_on(clip, "pose_hand") && clip.body_model != "mimicx") {  // readers of SMPL-X files expect these
     npz.set("root_orient", root_orient);
     npz.set("pose_body", pose_body);
     npz.set("mocap_frame_rate", NpyArray::scalar(clip.fps));

@@ -88,10 +88,10 @@ TEST(ClipFile, WrittenFilesHaveTheDocumentedMembers) {
   const Npz npz = to_npz(test::clip_with_everything(), {{"joints", NpyArray::scalar(1.0)}});
   std::vector<std::string> keys;
   for (const auto& [key, array] : npz.members()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"poses", "trans", "betas", "mocap_framerate", "gender",
-                                            "joint_names", "body_model", "keypoints_2d", "keypoint_names",
-                                            "camera_intrinsics", "camera_extrinsics", "root_orient",
-                                            "pose_body", "mocap_frame_rate", "pose_hand", "joints"}));
+  EXPECT_EQ(keys,
+            (std::vector<std::string>{"poses", "trans", "betas", "mocap_framerate", "gender", "joint_names",
+                                      "body_model", "keypoints_2d", "keypoint_names", "camera_intrinsics",
+                                      "camera_extrinsics", "pose_hand", "joints"}));
   EXPECT_EQ(npz.at("poses").shape, (std::vector<std::size_t>{5, 165})) << "with hands, as SMPL-X has it";
   EXPECT_EQ(npz.at("poses").type, NpyArray::Type::kFloat64);
   EXPECT_EQ(npz.at("joint_names").text[21], "right_wrist");

@@ -310,6 +310,37 @@ TEST(Verify, RefusesOtherFormsOfTheMotionFile) {
   refuse("there twice, once without its suffix", bare + npz);
 }
 
+// mimicx itself would show other poses, another size or another body.
+TEST(Verify, RefusesMembersThatProgramsPreferToThePoses) {
+  const Npz sound = parse_npz(honest().npz, "sound.npz");
+  const auto with = [&](const std::string& name, const NpyArray& array) {
+    Npz npz = sound;
+    npz.set(name, array);
+    const std::string changed = format_npz(npz);
+    return verdict_of(certificate_of(honest().motion, {changed, kStride}), changed);
+  };
+  const std::size_t frames = kSteps / kStride + 1;
+  const std::vector<double> zeros(66 * frames, 0.0);
+  EXPECT_EQ(with("labels", NpyArray::from_double({frames, 3}, zeros.data())).status, ACCEPTED);
+  for (const char* name : {"root_orient", "global_orient"})
+    EXPECT_EQ(with(name, NpyArray::from_double({frames, 3}, zeros.data())).failed, std::vector<int>{FRAMES})
+        << name;
+  for (const char* name : {"pose_body", "body_pose"})
+    EXPECT_EQ(with(name, NpyArray::from_double({frames, 63}, zeros.data())).failed, std::vector<int>{FRAMES})
+        << name;
+  EXPECT_EQ(with("rest_joints", NpyArray::from_double({22, 3}, zeros.data())).failed,
+            std::vector<int>{FRAMES});
+  EXPECT_EQ(with("smpl_scaling", NpyArray::scalar(0.5)).failed, std::vector<int>{FRAMES});
+  for (const char* model : {"smplx", "smplh", "mimic", "mimicy"})
+    EXPECT_EQ(with("body_model", NpyArray::scalar_text(model)).failed, std::vector<int>{FRAMES}) << model;
+  Npz without;
+  for (const auto& [name, array] : sound.members())
+    if (name != "body_model") without.set(name, array);
+  const std::string bare = format_npz(without);
+  EXPECT_EQ(verdict_of(certificate_of(honest().motion, {bare, kStride}), bare).failed,
+            std::vector<int>{FRAMES});
+}
+
 TEST(Verify, RefusesAnAdversarysMotions) {
   const auto forged = [](const std::function<void(SubstepMotion&)>& change) {
     SubstepMotion motion = short_motion();
