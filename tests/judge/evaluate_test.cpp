@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/temporary_folder.h"
+#include "files/archive_members.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 #include "motion/standing_clip.h"
@@ -65,6 +66,23 @@ TEST_F(Evaluate, EachMotionStandsOnItsOwnScene) {
 }
 
 // A slide of 10 mm per frame at 30 fps is one of 2.5 mm at 120.
+// Forces belong to the body that was simulated: stature and mass are the truth's.
+TEST_F(Evaluate, MotionsWithForcesKeepTheirBody) {
+  add_pair("a", 0.0);
+  motion::Clip clip = motion::standing_clip(20);
+  const files::Members members = {
+      {"ground_wrenches", files::wrenches_member(files::WrenchRows(20), files::Precision::kFloat64)},
+      {"joint_torques", files::joints_member(files::VectorRows(20), files::Precision::kFloat64)}};
+  motion::write_clip(motions / "a.npz", clip, members);
+  import::ReadConfig tall;
+  tall.height = 1.95;
+  const EvaluatedMotion usual = evaluate_folders(truth, motions).motions.at(0),
+                        with_height = evaluate_folders(truth, motions, tall).motions.at(0);
+  ASSERT_TRUE(with_height.ok) << with_height.reason;
+  EXPECT_EQ(metric(with_height, "GP"), metric(usual, "GP"));
+  EXPECT_GT(metric(with_height, "gMPJPE"), metric(usual, "gMPJPE")) << "the truth is taller";
+}
+
 TEST_F(Evaluate, ScoresMotionsOfAnotherRateAt30Fps) {
   motion::Clip clip = motion::standing_clip(21);
   motion::write_clip(truth / "slide.npz", clip);
