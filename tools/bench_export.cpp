@@ -59,10 +59,7 @@ std::size_t data_bytes(const policy_export::ExportedPolicy& exported) {
 }
 
 void print_all(const record::RunFolder& run) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(run.root / "policies"))
-    files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  const std::vector<std::string> names = record::archive_names(run.root / "policies");
   const control::PushTest pushes{.speed = 0.1, .every = 15};
   std::printf("%-18s %6s | %21s | %21s %8s | %21s %8s\n", "", "", "as it is", "float", "bytes", "int8",
               "bytes");
@@ -70,8 +67,8 @@ void print_all(const record::RunFolder& run) {
               "pushes", "MPJPE", "gMPJPE", "pushes", "", "MPJPE", "gMPJPE", "pushes", "");
   Kept sums[3];
   int success[3] = {};
-  for (const auto& file : files) {
-    const StoredPolicy policy = files::read_policy(file);
+  for (const std::string& name : names) {
+    const StoredPolicy policy = files::read_policy(run.policy(name));
     std::printf("%-18s %6d |", policy.motion.name.c_str(), policy.motion.size());
     for (int kind = 0; kind < 3; ++kind) {
       const auto exported = policy_export::export_policy(policy, kind == 2);
@@ -86,14 +83,14 @@ void print_all(const record::RunFolder& run) {
     }
     std::printf("\n");
   }
-  const auto n = static_cast<double>(files.size());
+  const auto n = static_cast<double>(names.size());
   std::printf("%-18s %6s |", "mean, all pushes", "");
   for (int kind = 0; kind < 3; ++kind)
     std::printf("%7.2f%8.2f%7d %s%s", sums[kind].mpjpe / n, sums[kind].distance / n, sums[kind].followed,
                 kind > 0 ? "         " : "", kind < 2 ? "|" : "\n");
   std::printf(
       "successes of %zu: %d as they are, %d in float, %d in int8; %d trials of pushes of %g m/s each\n",
-      files.size(), success[0], success[1], success[2], pushes.trials, pushes.speed);
+      names.size(), success[0], success[1], success[2], pushes.trials, pushes.speed);
 }
 
 }  // namespace

@@ -44,10 +44,7 @@ template <class Pushed>
 void print_all(const record::RunFolder& run, const char* kind, const control::PushTest& test,
                const Pushed& pushed) {
   if (!std::filesystem::exists(run.root / kind)) return;
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(run.root / kind))
-    names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
+  const std::vector<std::string> names = record::archive_names(run.root / kind);
   std::printf("%-40s followed of %d   frames kept   (pushes of %g m/s every %d frames)\n", kind, test.trials,
               test.speed, test.every);
   int held = 0;

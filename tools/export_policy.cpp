@@ -25,17 +25,6 @@ struct ExportPolicyArguments {
   bool in_8_bits = false, force = false;
 };
 
-/// The names in RUN/policies and its subfolders.
-std::vector<std::string> policies_of(const fs::path& run) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(run / "policies", error))
-    if (entry.path().extension() == ".npz")
-      names.push_back(entry.path().lexically_relative(run / "policies").replace_extension().generic_string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 5;
   std::string text;
@@ -52,7 +41,8 @@ std::string what_is_missing(const fs::path& run, const std::string& name) {
            " is the first; `mimicx adapt --policy --options " + run.string() +
            "` makes policies of single motions";
   if (!fs::is_directory(run)) return run.string() + " is no folder: expected a policy as RUN/NAME";
-  if (const auto names = policies_of(run); !names.empty()) return asked + ": it has " + some_of(names);
+  if (const auto names = record::archive_names(run / "policies"); !names.empty())
+    return asked + ": it has " + some_of(names);
   if (fs::exists(run / "manifest.json"))
     return asked + ": it has no policies; `mimicx adapt --policy` teaches them";
   return asked + ": it is no folder of `mimicx adapt --out`";
@@ -100,7 +90,7 @@ std::optional<AskedOptions> find_options(const fs::path& asked) {
   };
   if (const fs::path file = file_of(asked); !file.empty()) return AskedOptions{file, std::nullopt};
   const std::string name = asked.filename().string(), option = "option";
-  const fs::path file = file_of(asked.parent_path());
+  const fs::path set = asked.parent_path(), file = set.empty() ? fs::path() : file_of(set);
   if (file.empty() || !name.starts_with(option)) return std::nullopt;
   const std::optional<double> number = number_from(name.substr(option.size()));
   if (!number || *number != std::floor(*number) || *number < 0.0 || *number > 1e6) return std::nullopt;

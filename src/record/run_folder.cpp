@@ -1,5 +1,6 @@
 #include "record/run_folder.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include "core/error.h"
@@ -7,6 +8,16 @@
 #include "record/outputs.h"
 
 namespace mimicx::record {
+
+std::vector<std::string> archive_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none))
+    if (entry.path().extension() == ".npz")
+      names.push_back(entry.path().lexically_relative(folder).replace_extension().generic_string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 void RunFolder::create() const {
   for (const char* part : {"motions", "references"}) make_folder(root / part);

@@ -42,6 +42,9 @@ namespace mimicx::record {
 /// Most parts of a motion that are written.
 inline constexpr int kMostParts = 9;
 
+/// Names of the archives in a folder and its subfolders, without suffix, sorted; none without the folder.
+std::vector<std::string> archive_names(const std::filesystem::path& folder);
+
 struct RunFolder {
   std::filesystem::path root;
   std::filesystem::path records = {};  ///< of a shard: the folder of its manifest, journal and times
