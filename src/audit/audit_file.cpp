@@ -65,9 +65,7 @@ SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
 }
 
 Audit audit_recorded(const motion::Clip& clip, const Npz& npz) {
-  physics::SimulationConfig simulation;
-  simulation.gravity = files::recorded_gravity(clip);
-  return audit_frames(simulated_frames(clip, npz), simulation);
+  return audit_frames(simulated_frames(clip, npz), files::recorded_simulation(clip));
 }
 
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,

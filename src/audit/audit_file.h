@@ -27,7 +27,7 @@ std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::
 /// @throws DataError naming file and member
 SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz);
 
-/// `audit_frames` of them, under the gravity that they were simulated with.
+/// `audit_frames` of them, with the gravity, friction and physics rate that they were simulated with.
 Audit audit_recorded(const motion::Clip& clip, const Npz& npz);
 
 struct AuditedFile {

@@ -105,6 +105,7 @@ std::string where_it_stands(const NamedValues& values) {
 }  // namespace
 
 std::vector<std::string> failures_of(const Audit& audit) {
+  if (audit.rows.empty()) return {"no two frames: nothing moves that forces could explain"};
   std::vector<std::string> failures;
   const Limits limits = limits_of(audit.evidence);
   const NamedValues values = summary_of(audit);
@@ -120,7 +121,8 @@ std::vector<std::string> failures_of(const Audit& audit) {
   check("largest unexplained root force", "root_force_max_N", limits.max_force, "N");
   check("largest unexplained root moment", "root_moment_max_Nm", limits.max_moment, "N·m");
   if (audit.evidence == Evidence::kPosesAlone) {
-    if (!failures.empty()) failures.push_back(where_it_stands(values));
+    if (!failures.empty() && value_of(values, "untouched_percent") > 0.0)
+      failures.push_back(where_it_stands(values));
     return failures;
   }
   check("mean gap between required and exported torques", "torque_gap_mean_Nm", limits.mean_moment, "N·m");

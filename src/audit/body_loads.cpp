@@ -4,7 +4,8 @@
 
 namespace mimicx::audit {
 
-PerBody<BodyLoad> body_loads(const Character& c, const PerFrame<BodyPoses>& poses, int t, double fps) {
+PerBody<BodyLoad> body_loads(const Character& c, const PerFrame<BodyPoses>& poses, int t, double fps,
+                             double gravity) {
   PerBody<BodyLoad> loads;
   for (int b = 0; b < kBodies; ++b) {
     const auto center = [&](int i) { return Vector3d(poses[i].p_WB[b] + poses[i].q_WB[b] * c.com_B[b]); };
@@ -15,7 +16,7 @@ PerBody<BodyLoad> body_loads(const Character& c, const PerFrame<BodyPoses>& pose
     };
     const Vector3d acceleration = fps * fps * (center(t + 1) - 2.0 * center(t) + center(t - 1));
     loads[b].p_com = center(t);
-    loads[b].force = c.mass[b] * (acceleration + kGravity * Vector3d::UnitZ());
+    loads[b].force = c.mass[b] * (acceleration + gravity * Vector3d::UnitZ());
     loads[b].moment = fps * (spin(t, t + 1) - spin(t - 1, t));
   }
   return loads;

@@ -8,6 +8,7 @@
 
 #include "character/character.h"
 #include "core/containers.h"
+#include "core/units.h"
 
 namespace mimicx::audit {
 
@@ -18,7 +19,8 @@ struct BodyLoad {
 };
 
 /// Loads at frame t, world axes. @param t  1 … frames − 2
-PerBody<BodyLoad> body_loads(const Character& character, const PerFrame<BodyPoses>& poses, int t, double fps);
+PerBody<BodyLoad> body_loads(const Character& character, const PerFrame<BodyPoses>& poses, int t, double fps,
+                             double gravity = kGravity);
 
 /// Moment about `center` and force that the whole body needs.
 Vector6d wrench_of(const PerBody<BodyLoad>& loads, const Vector3d& center);

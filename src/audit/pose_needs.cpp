@@ -26,8 +26,8 @@ struct FramePoints {
   Vector3d center;
 };
 
-RawNeed raw_need(const Character& c, const PerFrame<BodyPoses>& poses, int t, double fps) {
-  const PerBody<BodyLoad> loads = body_loads(c, poses, t, fps);
+RawNeed raw_need(const Character& c, const PerFrame<BodyPoses>& poses, int t, double fps, double gravity) {
+  const PerBody<BodyLoad> loads = body_loads(c, poses, t, fps, gravity);
   RawNeed need;
   need.wrench = wrench_of(loads, center_of_mass(c, poses[t]));
   need.moment = joint_moments(loads, poses[t]);
@@ -36,9 +36,10 @@ RawNeed raw_need(const Character& c, const PerFrame<BodyPoses>& poses, int t, do
 }
 
 /// Of the frames 1 … n − 2; the first and the last have none.
-PerFrame<RawNeed> raw_needs(const Character& c, const PerFrame<BodyPoses>& poses, double fps) {
+PerFrame<RawNeed> raw_needs(const Character& c, const PerFrame<BodyPoses>& poses, double fps,
+                            double gravity) {
   PerFrame<RawNeed> raw(poses.count());
-  for (int t = 1; t + 1 < poses.count(); ++t) raw[t] = raw_need(c, poses, t, fps);
+  for (int t = 1; t + 1 < poses.count(); ++t) raw[t] = raw_need(c, poses, t, fps, gravity);
   return raw;
 }
 
@@ -129,7 +130,7 @@ PerFrame<Vector6d> wanted_wrenches(const Character& character, const PerFrame<Bo
                                    const PoseNeedsConfig& config) {
   require_usable(poses, fps, config);
   const int n = poses.count(), m = half_window(fps, config);
-  const PerFrame<RawNeed> raw = raw_needs(character, poses, fps);
+  const PerFrame<RawNeed> raw = raw_needs(character, poses, fps, config.gravity);
   PerFrame<Vector6d> wanted(n);
   for (int t = 1; t + 1 < n; ++t) wanted[t] = smoothed(raw, t, m).wrench;
   wanted[0] = wanted[1];
@@ -143,10 +144,10 @@ PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& 
   const int n = poses.count(), m = half_window(fps, config);
   PoseNeeds needs;
   needs.mass = character.total_mass();
-  needs.weight = kGravity * needs.mass;
+  needs.weight = config.gravity * needs.mass;
   needs.fps = fps;
   needs.frames.resize(n);
-  const PerFrame<RawNeed> raw = raw_needs(character, poses, fps);
+  const PerFrame<RawNeed> raw = raw_needs(character, poses, fps, config.gravity);
   PerFrame<FramePoints> points;
   for (const BodyPoses& frame : poses) points.push_back(frame_points(character, frame, scene));
   for (int t = 1; t + 1 < n; ++t)

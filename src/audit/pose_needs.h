@@ -22,13 +22,15 @@
 
 #include "character/character.h"
 #include "core/containers.h"
+#include "core/units.h"
 
 namespace mimicx::audit {
 
 struct PoseNeedsConfig {
   double window = 0.1;  ///< half of the time over which the parabola is fitted, s
   double reach = 0.02;  ///< a point up to this far above the floor touches it, m; so does any point below it
-  double friction = 1.0;  ///< μ
+  double friction = 1.0;      ///< μ
+  double gravity = kGravity;  ///< m/s², downwards
 };
 
 /// One frame.

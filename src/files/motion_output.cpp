@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "files/archive_members.h"
+#include "files/recorded_forces.h"
 #include "motion/clip_file.h"
 #include "motion/passthrough.h"
 #include "motion/resample.h"
@@ -61,6 +62,7 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   clip.passthrough = members_for(input, reference.fps, rollout.poses.size());
+  remove_recorded(clip);
   Members extra = {{"joints", positions_member(joints)},
                    {"velocities", velocities_member(states, kPrecision)},
                    {"joint_torques", joints_member(torques, kPrecision)},

@@ -11,12 +11,13 @@
 namespace mimicx::files {
 namespace {
 
-constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques", *kWeight = "body_weight";
-constexpr Array<std::string_view, 10> kRecorded = {
+constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques", *kWeight = "body_weight",
+                     *kFriction = "friction", *kRate = "physics_rate";
+constexpr Array<std::string_view, 12> kRecorded = {
     "joints",           "velocities",      "joint_torques",
     "range_torques",    "ground_wrenches", "self_contact_wrenches",
     "foot_force_least", "foot_force_most", "foot_force_least_effort",
-    "body_weight"};
+    "body_weight",      "friction",        "physics_rate"};
 
 }  // namespace
 
@@ -40,6 +41,28 @@ double recorded_gravity(const motion::Clip& clip) {
     return std::abs(gravity - kGravity) < kRounding * kGravity ? kGravity : gravity;
   }
   return kGravity;
+}
+
+physics::SimulationConfig recorded_simulation(const motion::Clip& clip) {
+  physics::SimulationConfig simulation;
+  simulation.gravity = recorded_gravity(clip);
+  for (const auto& [name, array] : clip.passthrough) {
+    if ((name != kFriction && name != kRate) || array.size() != 1 || array.type == NpyArray::Type::kText)
+      continue;
+    const double value = array.to_double().front();
+    if (!std::isfinite(value) || value < (name == kRate ? 1.0 : 0.0)) continue;  // of another program
+    (name == kRate ? simulation.rate : simulation.friction) = value;
+  }
+  return simulation;
+}
+
+Members simulation_members(const physics::SimulationConfig& simulation, double mass) {
+  const physics::SimulationConfig usual;
+  Members members = {{kWeight, NpyArray::scalar(simulation.gravity * mass)}};
+  if (simulation.friction != usual.friction)
+    members.emplace_back(kFriction, NpyArray::scalar(simulation.friction));
+  if (simulation.rate != usual.rate) members.emplace_back(kRate, NpyArray::scalar(simulation.rate));
+  return members;
 }
 
 bool remove_recorded(motion::Clip& clip) {

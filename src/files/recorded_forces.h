@@ -8,8 +8,10 @@
 #include <string>
 
 #include "core/containers.h"
+#include "files/archive_members.h"
 #include "import/motion_file.h"
 #include "motion/clip.h"
+#include "physics/model.h"
 
 namespace mimicx::files {
 
@@ -25,6 +27,13 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip);
 
 /// m/s², of the simulation that a motion comes from, by its member `body_weight`; of other motions kGravity.
 double recorded_gravity(const motion::Clip& clip);
+
+/// The settings of that simulation on which an audit of frames depends: gravity, friction and physics rate.
+physics::SimulationConfig recorded_simulation(const motion::Clip& clip);
+
+/// The members of which these are read: the weight of a body of this mass, kg, and friction and rate where
+/// they are not the usual ones.
+Members simulation_members(const physics::SimulationConfig& simulation, double mass);
 
 /// Removes what a simulation recorded beside the poses: joint positions and velocities, forces, weight. They
 /// do not belong to a motion of another body, another frame rate or other axes. @return whether there was any

@@ -29,7 +29,7 @@ List<double> vertical_forces(const audit::FloorWrenches& ground) {
 }
 
 audit::Slip judge_forces(const LoadedMotion& motion, motion::Metrics& metrics) {
-  const double weight = kGravity * motion.character.total_mass();
+  const double weight = motion.gravity * motion.character.total_mass();
   const audit::Slip slip = audit::slip_of(motion.poses, motion.ground, weight, motion.fps, motion.scene);
   take_slip(slip, metrics);
   const List<double> vertical = vertical_forces(motion.ground);
@@ -48,7 +48,9 @@ audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& p
 audit::Slip judge_clip(const motion::Clip& clip, motion::Metrics& metrics) {
   const Character character = motion::character_of(clip);
   if (const auto forces = files::recorded_forces(clip))
-    return judge_forces({character, motion::poses_of(clip), forces->ground, clip.fps, clip.scene}, metrics);
+    return judge_forces({character, motion::poses_of(clip), forces->ground, clip.fps, clip.scene,
+                         files::recorded_gravity(clip)},
+                        metrics);
   const motion::Clip sampled = motion::resampled(clip, motion::kMetricRate);
   return judge_poses(character, motion::poses_of(sampled), motion::kMetricRate, clip.scene, metrics);
 }

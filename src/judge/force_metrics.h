@@ -2,6 +2,7 @@
 #pragma once
 
 #include "audit/slip.h"
+#include "core/units.h"
 #include "motion/clip.h"
 #include "motion/metrics.h"
 
@@ -14,6 +15,7 @@ struct LoadedMotion {
   const audit::FloorWrenches& ground;
   double fps = 30.0;
   const Scene& scene;
+  double gravity = kGravity;  ///< of the simulation, m/s²
 };
 
 /// Upward force of the floor on the whole body, without the first frame, which has none, N.

@@ -32,9 +32,11 @@ Total total_of(const PerFrame<Vector6d>& assistance, int first, int last) {
 
 }  // namespace
 
-audit::PoseNeeds needs_of(const motion::Reference& reference) {
+audit::PoseNeeds needs_of(const motion::Reference& reference, const physics::SimulationConfig& simulation) {
   if (reference.size() < 3) return {.fps = reference.fps, .frames = {}};
-  return audit::needs_of_poses(reference.character, reference.poses, reference.fps, {}, reference.scene);
+  return audit::needs_of_poses(reference.character, reference.poses, reference.fps,
+                               {.friction = simulation.friction, .gravity = simulation.gravity},
+                               reference.scene);
 }
 
 NamedValues assistance_values(const PerFrame<Vector6d>& assistance, double mass) {

@@ -10,12 +10,14 @@
 #include "audit/pose_needs.h"
 #include "core/named_values.h"
 #include "motion/reference.h"
+#include "physics/model.h"
 #include "record/feasibility_file.h"
 
 namespace mimicx::judge {
 
-/// Without frames if the reference has fewer than 3.
-audit::PoseNeeds needs_of(const motion::Reference& reference);
+/// In the world of a simulation. Without frames if the reference has fewer than 3.
+audit::PoseNeeds needs_of(const motion::Reference& reference,
+                          const physics::SimulationConfig& simulation = {});
 
 /// Frames that the assisted stage reached, mean and largest force, acceleration and moment of its assistance,
 /// and the frame of the largest force. Empty without assistance. @param assistance  moment and force, N·m, N

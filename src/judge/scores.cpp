@@ -41,7 +41,8 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
   const motion::MotionSamples same_length = head_of(asked, simulated.frames());
   Scores scores;
   motion::Metrics metrics = motion::evaluate_motion(simulated, &same_length);
-  judge_forces({character, poses, ground_of(rollout), reference.fps, reference.scene}, metrics);
+  judge_forces({character, poses, ground_of(rollout), reference.fps, reference.scene, rollout.gravity},
+               metrics);
   scores.values = named_values(metrics);
   const motion::Success success = motion::success_of(simulated, asked);
   scores.values.emplace_back("max_distance_mm", kMm * success.max_distance_m);

@@ -195,9 +195,10 @@ std::vector<record::Worsening> worsenings(const Origin& origin, const rl::tracki
       asked{motion::sample_motion(body, reference.poses, reference.fps, reference.scene),
             curve_of(judge_poses(body, reference.poses, reference.fps, reference.scene, unused))},
       made{motion::sample_motion(body, poses, reference.fps, reference.scene),
-           curve_of(judge_forces({body, poses, ground, reference.fps, reference.scene}, unused))};
+           curve_of(
+               judge_forces({body, poses, ground, reference.fps, reference.scene, rollout.gravity}, unused))};
   const Evidence evidence{input.samples, reference, origin.needs, ground,
-                          kGravity * reference.character.total_mass()};
+                          rollout.gravity * reference.character.total_mass()};
   for (const Headline& h : kHeadlines) {
     const double before = value_of(origin.input_scores.values, h.metric), after = value_of(metrics, h.metric);
     if (!is_worse(h, before, after)) continue;

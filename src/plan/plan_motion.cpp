@@ -140,10 +140,9 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);
   if (plan.failure) {
-    const auto& forces = made.after.forces;  // after the plan's end those of a body without controls
-    made.reason =
-        failure_in_words(*plan.failure, job.needs, made.assistance,
-                         {forces.begin(), forces.begin() + std::min(plan.states.size(), std::ssize(forces))});
+    auto forces = made.after.forces;  // after the plan's end they are those of a body without controls
+    forces.resize(std::min(forces.size(), plan.states.size()));
+    made.reason = failure_in_words(*plan.failure, job.needs, made.assistance, forces);
   }
   if (planned) *planned = std::move(stored->plan);
   return made;

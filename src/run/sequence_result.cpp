@@ -33,8 +33,8 @@ void write_simulated_motion(const std::filesystem::path& path, const motion::Cli
                             const physics::SimulationConfig& simulation) {
   const auto sharing = audit::load_sharing(frames_of(reference, rollout), {.friction = simulation.friction});
   files::Members members = audit::sharing_members(sharing);
-  members.emplace_back("body_weight",
-                       NpyArray::scalar(simulation.gravity * reference.character.total_mass()));
+  for (auto& member : files::simulation_members(simulation, reference.character.total_mass()))
+    members.push_back(std::move(member));
   files::write_simulated(path, input, reference, rollout, members);
 }
 

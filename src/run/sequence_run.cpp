@@ -130,7 +130,7 @@ std::string look_for_a_scene(const motion::Clip& clip) {
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
   const RunState& run = worker.run;
   JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}, {}};
-  motion.needs = judge::needs_of(motion.reference);
+  motion.needs = judge::needs_of(motion.reference, run.method.simulation);
   motion.input_scores = judge::score_input(motion.input, motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;

@@ -191,6 +191,13 @@ TEST(Audit, FrameResidualIsFirstOrderInThePhysicsStep) {
   }
 }
 
+TEST(Audit, OfOneFrameFails) {
+  const SimulatedFrames one{make_character(), 30.0, {{}}, {{}}, {}};
+  const Audit audit = audit_frames(one, {});
+  ASSERT_EQ(audit.failures.size(), 1u);
+  EXPECT_NE(audit.failures[0].find("no two frames"), std::string::npos);
+}
+
 TEST(Audit, DetectsAnExternalForceAndItsSize) {
   Thrown thrown(240.0, 0.0);
   for (auto& forces : thrown.rollout.forces)

@@ -47,6 +47,16 @@ double lowest(const Character& c, const PerFrame<BodyPoses>& poses) {
   return z;
 }
 
+// A jump, slowed down: in flight it falls with the gravity of another place.
+TEST(PoseNeeds, JumpAtAThirdOfTheSpeedIsFeasibleUnderANinthOfGravity) {
+  motion::Clip clip = exact("jump");
+  clip.fps /= 3.0;
+  EXPECT_FALSE(infeasible_stretches(needs_of(clip)).empty());
+  const PoseNeeds needs = needs_of(clip, {.gravity = kGravity / 9.0});
+  EXPECT_TRUE(infeasible_stretches(needs).empty());
+  EXPECT_NEAR(needs.weight, kGravity / 9.0 * needs.mass, 1e-9);
+}
+
 TEST(PoseNeeds, ExactMotionsNeedLessThanAThousandthOfTheWeight) {
   for (const std::string& kind : synth::synthetic_kinds()) {
     const PoseNeeds needs = needs_of(exact(kind));

@@ -31,5 +31,25 @@ TEST(RecordedForces, GravityIsThatOfTheSimulation) {
   EXPECT_NEAR(recorded_gravity(clip), 5.0, 1e-12);
 }
 
+TEST(RecordedForces, SimulationIsTheOneWhoseMembersAreThere) {
+  physics::SimulationConfig usual, other;
+  other.gravity = 1.62;
+  other.friction = 0.5;
+  other.rate = 480.0;
+  for (const physics::SimulationConfig& simulation : {usual, other}) {
+    motion::Clip clip = pushed_clip(4);
+    for (const auto& member : simulation_members(simulation, motion::character_of(clip).total_mass()))
+      clip.passthrough.push_back(member);
+    const physics::SimulationConfig read = recorded_simulation(clip);
+    EXPECT_NEAR(read.gravity, simulation.gravity, 1e-12);
+    EXPECT_EQ(read.friction, simulation.friction);
+    EXPECT_EQ(read.rate, simulation.rate);
+    remove_recorded(clip);
+    EXPECT_EQ(recorded_simulation(clip).friction, usual.friction);
+    EXPECT_EQ(recorded_simulation(clip).rate, usual.rate);
+  }
+  EXPECT_EQ(simulation_members(usual, 70.0).size(), 1u) << "the weight alone";
+}
+
 }  // namespace
 }  // namespace mimicx::files

@@ -76,6 +76,7 @@ MeanAction mean_action(const std::vector<Agent>& agents) {
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy, bool substeps) {
   TrackingRollout out;
+  out.gravity = config.simulation.gravity;
   TrackingPack pack(clip, config);  // every lane starts on frame 0; lane 0 is recorded
   physics::Data<P> scratch;
   physics::Applied<P> applied, of_step;

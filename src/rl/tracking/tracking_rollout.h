@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/units.h"
 #include "rl/policy.h"
 #include "rl/tracking/tracking_pack.h"
 
@@ -43,6 +44,7 @@ struct TrackingRollout {
   std::vector<ActingForces> forces;   ///< [frames]
   std::vector<Substep> substeps;      ///< [physics steps], if requested
   motion::ReferenceFrame last_state;  ///< after the last physics step
+  double gravity = kGravity;          ///< of the simulation, m/s²
   double worst_distance = 0;          ///< of any body from its reference, m
   double mean_reward = 0;             ///< over frames 1 …
   double mean_position_error = 0;     ///< all joints, world, frames 1 …, m
