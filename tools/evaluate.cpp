@@ -110,6 +110,8 @@ int evaluate_against_plates(const EvaluateArguments& a) {
     throw UsageError("evaluate: --forces compares one folder of --motions, or one file");
   const judge::ForceTable table = judge::evaluate_forces(
       a.forces, a.motions.front(), a.read.mass.value_or(std::numeric_limits<double>::quiet_NaN()));
+  for (const judge::ForceRow& row : table.rows)
+    for (const std::string& line : row.told) std::cerr << line << '\n';
   table_stream(a.json) << judge::format_forces(table);
   if (!a.json.empty()) write_json(a.json, judge::forces_json(table));
   return std::all_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.reason.empty(); })

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.h"
@@ -37,6 +38,54 @@ TEST(MeasuredForces, ReadsTheColumnNamesOfNewerFiles) {
     text.replace(at, 13, "ground_XX_r_");
   for (std::size_t at; (at = text.find("XX")) != std::string::npos;) text.replace(at, 2, "force");
   EXPECT_EQ(measured_forces_from(text, "x.mot").samples[0].force[1].z(), 700.0);
+}
+
+/// A .mot of 2 s with 100 rows a second. @param load  (time, whether of the right foot) → N
+template <class Load>
+MeasuredForces forces_under(const Load& load) {
+  std::string text = kOldMot.substr(0, kOldMot.find("0\t1\t700"));
+  for (int i = 0; i <= 200; ++i) {
+    text += std::to_string(i / 100.0);
+    for (const bool right : {true, false})
+      text += "\t0\t" + std::to_string(load(i / 100.0, right)) + "\t0\t0.1\t0\t0.2";
+    text += '\n';
+  }
+  return measured_forces_from(text, "x.mot");
+}
+
+/// Times of the first and the last valid sample of a foot, between which all are.
+std::pair<double, double> valid_times(const MeasuredForces& measured, int foot) {
+  std::pair<double, double> times = {NAN, NAN};
+  int count = 0;
+  for (const ForceSample& sample : measured.samples) {
+    if (!sample.valid[foot]) continue;
+    if (count++ == 0) times.first = sample.time;
+    times.second = sample.time;
+  }
+  EXPECT_EQ(count, count == 0 ? 0 : std::lround(100.0 * (times.second - times.first)) + 1);
+  return times;
+}
+
+TEST(MeasuredForces, BeforeAndAfterThePlatesAFootIsNotSeen) {
+  const MeasuredForces walk = forces_under([](double t, bool right) {
+    return right ? (t > 0.295 && t < 0.905) || (t > 1.195 && t < 1.805) ? 700.0 : 5.0  // the noise of a plate
+                 : (t > 0.795 && t < 1.305 ? 700.0 : 0.0);
+  });
+  EXPECT_NEAR(valid_times(walk, 1).first, 0.2, 0.011) << "0.1 s before it lands";
+  EXPECT_NEAR(valid_times(walk, 1).second, 1.9, 0.011);
+  EXPECT_NEAR(valid_times(walk, 0).first, 0.7, 0.011);
+  EXPECT_NEAR(valid_times(walk, 0).second, 1.4, 0.011);
+  EXPECT_NE(walk.told.find("the left foot counts from 0.70 to 1.40 s"), std::string::npos) << walk.told;
+  const MeasuredForces one_plate = forces_under([](double, bool right) { return right ? 700.0 : 0.0; });
+  EXPECT_TRUE(std::isnan(valid_times(one_plate, 0).first));
+  EXPECT_EQ(valid_times(one_plate, 1), std::pair(0.0, 2.0));
+  EXPECT_NE(one_plate.told.find("the left foot presses no plate"), std::string::npos) << one_plate.told;
+}
+
+TEST(MeasuredForces, FlightOfAJumpIsSeen) {
+  const MeasuredForces jump = forces_under([](double t, bool) { return t < 0.8 || t > 1.2 ? 350.0 : 0.0; });
+  for (const int foot : {0, 1}) EXPECT_EQ(valid_times(jump, foot), std::pair(0.0, 2.0));
+  EXPECT_EQ(jump.told, "");
 }
 
 TEST(MeasuredForces, ErrorsSayWhatWasExpected) {
@@ -86,6 +135,11 @@ TEST(MeasuredForces, RealFilesAreRead) {
   const MeasuredForces walk = read_measured_forces(shared / "walk_g10_grf.mot");
   EXPECT_EQ(walk.samples.size(), 1501U);
   EXPECT_NEAR(walk.samples[0].force[1].z(), 745.466, 1e-3);
+  EXPECT_EQ(walk.told, "") << "both feet press the treadmill from beginning to end";
+  const MeasuredForces overground = read_measured_forces(shared / "walk_raj_grf.mot");
+  EXPECT_FALSE(overground.samples.front().valid[1]);
+  EXPECT_FALSE(overground.samples[1000].valid[0]) << "at 0.5 s the right foot alone is on a plate";
+  EXPECT_TRUE(overground.samples[2000].valid[0]);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npz.h"
+#include "core/number_text.h"
 #include "core/random.h"
 #include "core/temporary_folder.h"
 #include "core/units.h"
@@ -78,7 +79,7 @@ struct Pressed {
 };
 
 std::map<std::string, double> values_of(const Pressed& pressed, double mass = NAN) {
-  const std::vector<double> values = compare_forces(pressed.motion, pressed.measured, mass);
+  const std::vector<double> values = compare_forces(pressed.motion, pressed.measured, mass).values;
   std::map<std::string, double> named;
   for (std::size_t k = 0; k < values.size(); ++k) named[force_columns()[k].name] = values[k];
   return named;
@@ -141,6 +142,57 @@ TEST(ForceComparison, PlatesThatDoNotSeeAFootDoNotCount) {
   const auto v = values_of(pressed);
   EXPECT_EQ(v.at("n"), 14) << "frames 2 to 15";
   EXPECT_NEAR(v.at("ftV"), 0.0, 1e-6);
+}
+
+TEST(ForceComparison, MassIsThatOfTheFramesThatCount) {
+  Pressed pressed(30);
+  const double mass = pressed.measured.mass;
+  pressed.measured.mass = NAN;
+  for (auto& sample : pressed.measured.samples)
+    if (sample.time > 0.5) {
+      sample.valid[0] = false;
+      sample.force[0].setZero();
+    }
+  // The body moves down at first and up at last: more than its weight presses.
+  for (auto& sample : pressed.measured.samples)
+    for (Vector3d& force : sample.force) force *= 1.3;
+  for (auto& acting : pressed.motion.forces)
+    for (Vector6d& wrench : acting.ground) wrench *= 1.3;
+  const ComparedMotion compared = compare_forces(pressed.motion, pressed.measured, NAN);
+  ASSERT_EQ(compared.told.size(), 1u);
+  EXPECT_NE(compared.told[0].find(formatted("mass %.1f kg", mass)), std::string::npos) << compared.told[0];
+  EXPECT_NEAR(values_of(pressed).at("totV"), 0.0, 1e-6);
+  EXPECT_TRUE(compare_forces(pressed.motion, pressed.measured, mass).told.empty());
+  for (auto& sample : pressed.measured.samples) sample.valid[0] = false;
+  EXPECT_THROW(compare_forces(pressed.motion, pressed.measured, NAN), DataError);
+  EXPECT_EQ(values_of(pressed, mass).at("n"), 0.0);
+}
+
+/// The same trial from the laboratory's file, which does not say where the plates are missed.
+TEST(ForceComparison, FramesBesideThePlatesDoNotCount) {
+  const std::filesystem::path shared = std::filesystem::path(MIMICX_SHARED_DIR) / "forces";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "needs ../shared";
+  const auto plates = import::read_measured_forces(shared / "raw/walk_raj_grf.mot");
+  const auto study = import::read_measured_forces(shared / "data/walk_raj.npz");
+  // A body that stands in place and carries what was measured, also where the study says that plates miss a
+  // foot: there it carries the rest of the weight.
+  const int frames = static_cast<int>((study.samples.size() - 1) / 10) + 1;
+  Pressed pressed(frames);
+  const double weight = kGravity * pressed.motion.character.total_mass();
+  for (int t = 1; t < frames; ++t)
+    for (int foot = 0; foot < 2; ++foot) {
+      const import::ForceSample& sample = study.samples[static_cast<std::size_t>(10 * t - 5)];
+      Vector6d& ground = pressed.motion.forces[static_cast<std::size_t>(t)].ground[kLeftAnkle + foot];
+      ground.setZero();
+      ground.tail<3>() = weight / (kGravity * study.mass) * sample.force[foot];
+      if (!sample.valid[foot]) ground[5] = std::max(0.0, weight - sample.force[1 - foot].z());
+    }
+  pressed.measured = plates;
+  const auto v = values_of(pressed, study.mass);
+  EXPECT_GT(v.at("n"), 20);
+  EXPECT_LT(v.at("totV"), 6.0) << "but for the filter of the study";
+  EXPECT_NEAR(values_of(pressed).at("imp%"), 0.0, 1e-6);
+  EXPECT_NE(compare_forces(pressed.motion, plates, NAN).told.at(1).find("mass 8"), std::string::npos);
 }
 
 /// Moments that grow with time, and a table of them with 60 rows a second.

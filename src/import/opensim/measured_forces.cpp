@@ -1,7 +1,11 @@
 #include "import/opensim/measured_forces.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/file.h"
 #include "core/npz/npz.h"
+#include "core/number_text.h"
 #include "import/opensim/storage_table.h"
 
 namespace mimicx::import {
@@ -31,6 +35,27 @@ FootColumns foot_columns(const StorageTable& table, const std::string& path,
   throw DataError(path, std::string(*prefixes.begin()) + "vx", "a column of this name", "none");
 }
 
+/// Marks the samples in which a foot may be on the floor beside the plates.
+void mark_unseen(MeasuredForces& measured) {
+  const double begin = measured.samples.front().time, end = measured.samples.back().time;
+  for (int foot = 0; foot < 2; ++foot) {
+    const auto presses = [&](const ForceSample& sample) { return sample.force[foot].z() > kLeastPress; };
+    const auto first = std::find_if(measured.samples.begin(), measured.samples.end(), presses);
+    const auto last = std::find_if(measured.samples.rbegin(), measured.samples.rend(), presses);
+    const std::string name = foot == 0 ? "the left foot" : "the right foot";
+    const bool never = first == measured.samples.end();
+    const double from = never ? HUGE_VAL : std::max(first->time - kSwing, begin),
+                 to = never ? -HUGE_VAL : std::min(last->time + kSwing, end);
+    for (ForceSample& sample : measured.samples)
+      sample.valid[foot] = sample.time >= from && sample.time <= to;
+    if (!never && from <= begin && to >= end) continue;
+    measured.told += measured.told.empty() ? "" : ", ";
+    measured.told +=
+        name + (never ? " presses no plate" : formatted(" counts from %.2f to %.2f s", from, to));
+  }
+  if (!measured.told.empty()) measured.told += "; otherwise a foot may stand beside the plates";
+}
+
 MeasuredForces from_mot(const std::string& text, const std::string& path) {
   const StorageTable table = parse_storage(text, path);
   const FootColumns feet[] = {foot_columns(table, path, {"ground_force_l_", "1_ground_force_"}),
@@ -47,6 +72,7 @@ MeasuredForces from_mot(const std::string& text, const std::string& path) {
       sample.pressure[foot] = vector(feet[foot].pressure);
     }
   }
+  if (!measured.samples.empty()) mark_unseen(measured);
   return measured;
 }
 
@@ -90,6 +116,7 @@ MeasuredForces from_npz(const Npz& npz) {
       sample.valid[foot] = valid[2 * i + static_cast<std::size_t>(foot)] != 0.0;
     }
   }
+  if (!npz.has("valid") && samples > 0) mark_unseen(measured);
   if (npz.has("mass")) measured.mass = positive_number(npz, "mass");
   if (!npz.has("joints")) return measured;
   const NpyArray& joints = npz.at("joints");

@@ -5,6 +5,10 @@
 /// (x, −z, y) here. An .npz: grf_left, grf_right (samples, 3) in N and cop_left, cop_right (samples, 3) in m,
 /// z up; grf_fps; optional valid (samples, 2), mass in kg, joints (frames, 22, 3) with fps.
 ///
+/// Where a file does not say `valid`, an unloaded foot may be in the air or on the floor beside the plates.
+/// It counts as in the air between its first and its last load, as in the flight of a jump, and for kSwing
+/// before and after, because it lands from the air and leaves into it. The other samples are not valid.
+///
 /// What it does not do: nothing is filtered.
 #pragma once
 
@@ -18,6 +22,9 @@
 
 namespace mimicx::import {
 
+inline constexpr double kLeastPress = 20.0;  ///< N; a foot that a plate pushes up with more presses it
+inline constexpr double kSwing = 0.1;        ///< s
+
 struct ForceSample {
   double time = 0.0;                    ///< s
   Array<Vector3d, 2> force, pressure;   ///< [left, right] N; centre of pressure, m, not finite: unknown
@@ -29,6 +36,7 @@ struct MeasuredForces {
   double mass = std::numeric_limits<double>::quiet_NaN();  ///< kg; NaN: unknown
   PerFrame<PerBody<Vector3d>> joints;                      ///< of the person, m; empty: unknown
   double joints_fps = 0.0;
+  std::string told;  ///< which samples are valid, one line; empty: the file says it, or all are
 };
 
 /// @throws DataError for a file that is none of these

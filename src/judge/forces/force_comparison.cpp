@@ -336,13 +336,19 @@ double tracking(const ComparedForces& c) {
   return mean_of_values(distances);
 }
 
-/// Mean vertical force over the frames that the plates see, as a mass, kg.
-double mass_on_plates(const FeetSeries& series) {
-  Values loads;
-  for (int t = 1; t < series.newtons.count(); ++t)
-    if (series.valid[t][0] && series.valid[t][1])
-      loads.push_back((series.newtons[t][0] + series.newtons[t][1]).z() / kGravity);
-  return mean_of_values(loads);
+/// With this mass the plates' vertical impulse in the frames that count is what the motion needs, kg. Their
+/// mean load is not the weight where the body moves down at the first of these frames and up at the last.
+/// @throws DataError if there is none
+double mass_on_plates(const ComparedForces& c) {
+  double theirs = 0.0, ours = 0.0;  // N and N/kg
+  for (int t = 0; t < c.counts.count(); ++t) {
+    if (!c.both(t)) continue;
+    theirs += (c.b.newtons[t][0] + c.b.newtons[t][1]).z();
+    ours += (c.a.newtons[t][0] + c.a.newtons[t][1]).z() / c.a.mass;
+  }
+  if (!(theirs > 0.0 && ours > 0.0))
+    throw DataError("", "", "--mass, or frames in which the plates see both feet and a load", "none");
+  return theirs / ours;
 }
 
 ComparedForces common_frames(const audit::SimulatedFrames& motion, const import::MeasuredForces& measured,
@@ -353,8 +359,6 @@ ComparedForces common_frames(const audit::SimulatedFrames& motion, const import:
   c.b.joints = joints_at(measured, motion.fps, c.a.joints);
   const int frames = std::min({c.a.newtons.count(), c.b.newtons.count(), c.b.joints.count()});
   if (frames < 5) throw DataError("", "", "at least 5 frames that both have", std::to_string(frames));
-  c.b.mass = !std::isnan(mass) ? mass : measured.mass;
-  if (std::isnan(c.b.mass)) c.b.mass = mass_on_plates(c.b);
   shorten(frames, c.a);
   shorten(frames, c.b);
   for (int t = 0; t < frames; ++t) {
@@ -362,6 +366,8 @@ ComparedForces common_frames(const audit::SimulatedFrames& motion, const import:
     const bool settled = t > 1 && t + 1 < frames;  // forces at the ends are not
     c.counts.push_back({settled && c.b.valid[t][0], settled && c.b.valid[t][1]});
   }
+  c.b.mass = !std::isnan(mass) ? mass : measured.mass;
+  if (std::isnan(c.b.mass)) c.b.mass = mass_on_plates(c);
   put_in_weights(c.axes, c.a);
   put_in_weights(c.axes, c.b);
   return c;
@@ -407,11 +413,14 @@ ForceRow row_of_forces(const std::string& name, const std::filesystem::path& mea
     if (motion.empty()) throw DataError(measured.string(), "", "a motion for this measurement", "none");
     const Npz npz = read_npz(motion);
     const audit::SimulatedFrames frames = audit::simulated_frames(motion::clip_from(npz, name), npz);
-    row.values =
-        is_inverse_dynamics(measured)
-            ? compare_inverse_dynamics(frames, import::parse_storage(read_file(measured), measured.string()),
-                                       mass, measured.string())
-            : compare_forces(frames, import::read_measured_forces(measured), mass);
+    if (is_inverse_dynamics(measured)) {
+      const import::StorageTable table = import::parse_storage(read_file(measured), measured.string());
+      row.values = compare_inverse_dynamics(frames, table, mass, measured.string());
+      return row;
+    }
+    ComparedMotion compared = compare_forces(frames, import::read_measured_forces(measured), mass);
+    row.values = compared.values;
+    for (const std::string& line : compared.told) row.told.push_back(measured.string() + ": " + line);
   } catch (const std::exception& error) {
     row.reason = reason_of(error);
   }
@@ -504,8 +513,8 @@ const std::vector<ForceColumn>& moment_columns() {
   return columns;
 }
 
-std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
-                                   const import::MeasuredForces& measured, double mass) {
+ComparedMotion compare_forces(const audit::SimulatedFrames& motion, const import::MeasuredForces& measured,
+                              double mass) {
   const ComparedForces c = common_frames(motion, measured, mass);
   Named named;
   named["kg"] = c.a.mass;
@@ -516,12 +525,17 @@ std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
   compare_double_support(c, audit::load_sharing(motion), named);
   compare_moments(c, motion, named);
   if (!measured.joints.empty()) named["mm"] = tracking(c);
-  std::vector<double> values;
+  ComparedMotion compared;
   for (const ForceColumn& column : force_columns()) {
     const auto at = named.find(column.name);
-    values.push_back(at == named.end() ? kNone : at->second);
+    compared.values.push_back(at == named.end() ? kNone : at->second);
   }
-  return values;
+  if (!measured.told.empty()) compared.told.push_back(measured.told);
+  if (std::isnan(mass) && std::isnan(measured.mass))
+    compared.told.push_back(formatted(
+        "mass %.1f kg, with which the plates' impulse is the motion's (imp%% is 0); --mass gives another",
+        c.b.mass));
+  return compared;
 }
 
 ForceTable evaluate_forces(const std::filesystem::path& measured, const std::filesystem::path& motions,

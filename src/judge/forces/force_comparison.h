@@ -28,8 +28,9 @@ const std::vector<ForceColumn>& moment_columns();
 
 struct ForceRow {
   std::string name;
-  std::string reason;          ///< why there are no values, one line; empty: there are
-  std::vector<double> values;  ///< per column; NaN: none
+  std::string reason;             ///< why there are no values, one line; empty: there are
+  std::vector<double> values;     ///< per column; NaN: none
+  std::vector<std::string> told;  ///< which samples count and where the mass is from, a line each
 };
 
 struct ForceTable {
@@ -37,10 +38,17 @@ struct ForceTable {
   std::vector<ForceRow> rows;
 };
 
-/// @param mass  of the person, kg; NaN: that of the measurement, or else the plates' mean load
-/// @throws DataError if the two have fewer than five frames in common
-std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
-                                   const import::MeasuredForces& measured, double mass);
+struct ComparedMotion {
+  std::vector<double> values;     ///< of `force_columns()`; NaN: none
+  std::vector<std::string> told;  ///< as in ForceRow, without the file's name
+};
+
+/// @param mass  of the person, kg; NaN: that of the measurement, or else the one with which the plates'
+/// impulse
+///              in the frames that count is what the motion needs
+/// @throws DataError if the two have fewer than five frames in common, and if there is no mass
+ComparedMotion compare_forces(const audit::SimulatedFrames& motion, const import::MeasuredForces& measured,
+                              double mass);
 
 /// Pairs files of the same name ("walk" also for walk_grf.mot and walk_ID.sto) in two folders, or two files.
 /// A .sto, and a folder without .npz and .mot but with these, is compared by `moment_columns()`.
