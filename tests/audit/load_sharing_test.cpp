@@ -222,6 +222,103 @@ TEST(LoadSharing, PointCarriesATenthOfASecondBeforeItTouches) {
   EXPECT_EQ(carried(35), 0.0);
 }
 
+/// One knee on the floor, the other foot in front: all forces as statics has them, for ten equal frames.
+struct HalfKneeling {
+  SimulatedFrames motion{make_character(), 30.0, {}, {}};
+  BodyPoses poses;
+  List<Push> points;                   ///< of the feet, all of which touch
+  SharingConfig config{.reach = 0.3};  ///< m, more than any of their heights
+  Vector3d knee_force{60.0, -150.0, 300.0}, knee_point;
+
+  HalfKneeling() {
+    motion::ReferenceFrame frame;
+    for (int b = 0; b < kBodies; ++b) frame.q[b] = Quaterniond::Identity(), frame.omega[b].setZero();
+    frame.v_root.setZero();
+    frame.p_root.setZero();
+    frame.q[kPelvis] = exp_map(Vector3d(0.5 * std::numbers::pi, 0.0, 0.0));
+    frame.q[kRightHip] = exp_map(Vector3d(-0.5 * std::numbers::pi, 0.0, 0.0));
+    for (const int knee : {int{kLeftKnee}, int{kRightKnee}})
+      frame.q[knee] = exp_map(Vector3d(0.5 * std::numbers::pi * hinge_axis(knee)));
+    const Character& c = motion.character;
+    frame.p_root.z() = -lowest_contact(c, forward_kinematics(c, frame.p_root, frame.q));
+    poses = forward_kinematics(c, frame.p_root, frame.q);
+    knee_point = poses.p_WB[kLeftKnee] + poses.q_WB[kLeftKnee] * Vector3d(0.0, -0.08, 0.0);
+    rl::tracking::ActingForces acting;
+    for (int b = 0; b < kBodies; ++b) {
+      acting.joint_torque[b] = acting.range_torque[b] = Vector3d::Zero();
+      acting.ground[b] = acting.self_contact[b] = Vector6d::Zero();
+    }
+    const auto push = [&](int body, const Vector3d& p, const Vector3d& force) {
+      acting.ground[body].head<3>() += (p - poses.p_WB[body]).cross(force);
+      acting.ground[body].tail<3>() += force;
+    };
+    push(kLeftKnee, knee_point, knee_force);
+    for (int i = 0; i < kFootPoints; ++i) {
+      const ContactPoint& point = c.contact_points[i];
+      Vector3d p = lowest_position(point, poses);
+      p.z() = 0.0;
+      points.push_back({point.body, p, Vector3d::Zero()});
+      push(point.body, p, i < kPointsPerFoot ? Vector3d(0.0, 1.0, 12.0) : Vector3d(-2.0, 9.0, 55.0));
+    }
+    for (int joint = 1; joint < kBodies; ++joint) {
+      Vector3d torque = moment_without_floor(joint);
+      for (int b = joint; b < kBodies; ++b)
+        if (beyond(joint, b))
+          torque -= acting.ground[b].head<3>() +
+                    (poses.p_WB[b] - poses.p_WB[joint]).cross(Vector3d(acting.ground[b].tail<3>()));
+      acting.joint_torque[joint] = poses.q_WB[joint].conjugate() * torque;
+      if (is_hinge(joint))
+        acting.joint_torque[joint] = hinge_axis(joint).dot(acting.joint_torque[joint]) * hinge_axis(joint);
+    }
+    motion.frames.assign(10, frame);
+    motion.forces.assign(10, acting);
+  }
+  static bool beyond(int joint, int body) {
+    while (body > joint) body = kParents[body];
+    return body == joint;
+  }
+  /// What carries the weight of the bodies beyond a joint, N·m.
+  Vector3d moment_without_floor(int joint) const {
+    const Character& c = motion.character;
+    Vector3d moment = Vector3d::Zero();
+    for (int b = joint; b < kBodies; ++b)
+      if (beyond(joint, b))
+        moment += (poses.p_WB[b] + poses.q_WB[b] * c.com_B[b] - poses.p_WB[joint])
+                      .cross(Vector3d(0.0, 0.0, kGravity * c.mass[b]));
+    return moment;
+  }
+  /// The sharing of least effort by weights and, if it `kneels`, the force on the shin alone, without
+  /// torques.
+  FootForces by_statics(bool kneels) const {
+    const Character& c = motion.character;
+    LegEffort legs{poses, {}, {}};
+    for (int joint = 1; joint < kBodies; ++joint) {
+      legs.moment[joint] = moment_without_floor(joint);
+      if (kneels && (joint == kLeftHip || joint == kLeftKnee))
+        legs.moment[joint] -= (knee_point - poses.p_WB[joint]).cross(knee_force);
+      legs.bound[joint] = c.joint[joint].torque_limit;
+    }
+    const Vector3d center = center_of_mass(c, poses);
+    Vector6d wanted = Vector6d::Zero();
+    for (int i = 0; i < kFootPoints; ++i) {
+      const Vector3d force = i < kPointsPerFoot ? Vector3d(0.0, 1.0, 12.0) : Vector3d(-2.0, 9.0, 55.0);
+      wanted.head<3>() += (points[i].p - center).cross(force);
+      wanted.tail<3>() += force;
+    }
+    return share_load(wanted, center, points, heading_axes(poses.p_WB), legs, config).least_effort;
+  }
+};
+
+TEST(LoadSharing, ForceOnAKneeStaysInTheTorquesOfLeastEffort) {
+  const HalfKneeling kneeling;
+  const FootForces ours = load_sharing(kneeling.motion, kneeling.config)[5].least_effort,
+                   expected = kneeling.by_statics(true), without_knee = kneeling.by_statics(false);
+  for (int foot = 0; foot < 2; ++foot)
+    EXPECT_LT((ours[foot] - expected[foot]).norm(), 2.0) << "N, foot " << foot;
+  EXPECT_GT((expected[0] - without_knee[0]).norm(), 10.0)
+      << "the knee must count for the test to say anything";
+}
+
 TEST(LinearProgram, DependentEquationsAndNothingFeasible) {
   Eigen::MatrixXd A(3, 3);
   A << 1, 1, 1, 2, 2, 2, 1, 0, -1;

@@ -156,13 +156,14 @@ List<Push> points_in_reach(const SimulatedFrames& motion, const PerFrame<List<Ve
   return points;
 }
 
-/// The torques without the floor: what is recorded, and the floor's moments that it had to bear.
+/// The torques without the floor under the feet: what is recorded, and the moments of the floor on the feet
+/// that it had to bear. Forces on other bodies, of one who kneels or sits, act whatever the feet carry.
 LegEffort leg_effort(const Character& c, const BodyPoses& mid, const rl::tracking::ActingForces& acting) {
   LegEffort legs{mid, {}, {}};
   for (const int joint : kLegJoints) {
     Vector3d moment = mid.q_WB[joint] * acting.joint_torque[joint];
     for (int b = joint; b < kBodies; ++b)
-      if (carries(joint, b))
+      if (files::carrier_of(b) != files::kOnTheRest && carries(joint, b))
         moment += acting.ground[b].head<3>() +
                   (mid.p_WB[b] - mid.p_WB[joint]).cross(Vector3d(acting.ground[b].tail<3>()));
     legs.moment[joint] = moment;

@@ -43,7 +43,7 @@ struct SharingConfig {
 /// `wanted`, in parts of the joints' bounds.
 struct LegEffort {
   BodyPoses poses;           ///< joint centres, m; axes of the hinges
-  PerBody<Vector3d> moment;  ///< torque plus the floor's moment about the joint, world axes, N·m
+  PerBody<Vector3d> moment;  ///< torque plus the floor's moment on the feet, about the joint, world axes, N·m
   PerBody<double> bound;     ///< N·m
 };
 
