@@ -272,6 +272,28 @@ TEST(PlanarMoments, OfAStillLegAreForceTimesLeverMinusTheSegmentsWeights) {
       1e-9);
 }
 
+// A step's force has the lever of the step's height, not of the floor's.
+TEST(PlanarMoments, PressureOnAStepIsAtItsHeight) {
+  const Pressed pressed(10);
+  const PerFrame<Matrix3d> axes(10, audit::heading_axes(pressed.measured.joints[0]));
+  const PerFrame<PerBody<Vector3d>> joints(10, pressed.measured.joints[0]);
+  PerFrame<Array<Vector3d, 2>> force(10), pressure(10);
+  for (int t = 0; t < 10; ++t)
+    for (int foot = 0; foot < 2; ++foot) {
+      force[t][foot] = -50.0 * axes[0].col(0) + 350.0 * Vector3d::UnitZ();
+      pressure[t][foot] = joints[t][kLeftAnkle + foot];
+      pressure[t][foot].z() = 0.0;
+    }
+  const auto moment = [&] { return planar_moments({joints, force, pressure, axes, 70.0, 30.0})[5][0][1]; };
+  const double on_floor = moment();
+  for (auto& feet : pressure)
+    for (Vector3d& p : feet) p.z() = 0.3;
+  EXPECT_NEAR(std::abs(moment() - on_floor), 50.0 * 0.3 / 70.0, 1e-9);
+  for (auto& feet : pressure)
+    for (Vector3d& p : feet) p.z() = NAN;
+  EXPECT_EQ(moment(), on_floor);
+}
+
 TEST(PlanarMoments, AccelerationsOfACubicAreExactAtTheEndsToo) {
   PerFrame<Vector3d> points;
   for (int t = 0; t < 12; ++t) points.emplace_back(t * t, t * t * t, 5.0 - t);

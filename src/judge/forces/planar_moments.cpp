@@ -1,6 +1,7 @@
 #include "judge/forces/planar_moments.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "audit/load_sharing/load_sharing.h"
 #include "core/decompositions.h"
@@ -81,7 +82,7 @@ PerFrame<LegMoments> planar_moments(const PressedLegs& legs) {
         const Vector3d about = joint(t, kSegments[j].upper);
         Vector3d moment = Vector3d::Zero();
         Vector3d pressure = legs.pressure[t][side];
-        pressure.z() = 0.0;
+        if (!std::isfinite(pressure.z())) pressure.z() = 0.0;
         if (pressure.allFinite() && legs.force[t][side].z() > kPressing)
           moment += (pressure - about).cross(legs.force[t][side]);
         for (int q = 0; q <= j; ++q)

@@ -21,7 +21,7 @@ using LegMoments = Array<Array<double, 3>, 2>;
 struct PressedLegs {
   const PerFrame<PerBody<Vector3d>>& joints;     ///< m
   const PerFrame<Array<Vector3d, 2>>& force;     ///< of the floor on each foot, N
-  const PerFrame<Array<Vector3d, 2>>& pressure;  ///< m; not finite: none
+  const PerFrame<Array<Vector3d, 2>>& pressure;  ///< m; not finite: none, z alone: on the floor at 0
   const PerFrame<Matrix3d>& axes;                ///< columns forward, left, up
   double mass = 0.0;                             ///< kg
   double fps = 30.0;
