@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/npz/npz.h"
@@ -38,6 +39,44 @@ TEST(MeasuredForces, ReadsTheColumnNamesOfNewerFiles) {
     text.replace(at, 13, "ground_XX_r_");
   for (std::size_t at; (at = text.find("XX")) != std::string::npos;) text.replace(at, 2, "force");
   EXPECT_EQ(measured_forces_from(text, "x.mot").samples[0].force[1].z(), 700.0);
+}
+
+/// The text with a further column behind each of its rows.
+std::string with_column(const std::string& text, const std::string& name, const std::string& value) {
+  std::istringstream lines(text);
+  std::string out;
+  bool in_table = false, heads = false;
+  for (std::string line; std::getline(lines, line);) {
+    heads = !in_table && line.starts_with("time\t");
+    in_table = in_table || heads;
+    out += line + (heads ? '\t' + name : in_table ? '\t' + value : "") + '\n';
+  }
+  return out;
+}
+
+TEST(MeasuredForces, FurtherPlateUnderLoadIsRefused) {
+  const auto read = [](const std::string& name, const std::string& value) {
+    return measured_forces_from(with_column(kOldMot, name, value), "x.mot");
+  };
+  EXPECT_EQ(read("2_ground_force_vy", "0").samples.size(), 2U) << "nobody stands on it";
+  EXPECT_EQ(read("ground_torque_y", "13").samples.size(), 2U);
+  try {
+    read("2_ground_force_vy", "350");
+    FAIL() << "a plate that no foot takes";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("2_ground_force_vy"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MeasuredForces, RestOfTheBodyIsReadAndThenAllForcesAreKnown) {
+  std::string text = kOldMot;
+  EXPECT_THROW(measured_forces_from(with_column(text, "ground_force_o_vx", "0"), "x.mot"), DataError);
+  for (const auto& [axis, value] : {std::pair("x", "1"), {"y", "200"}, {"z", "3"}})
+    text = with_column(text, std::string("ground_force_o_v") + axis, value);
+  for (std::size_t at; (at = text.find("\t50\t")) != std::string::npos;) text.replace(at, 4, "\t0\t");
+  const MeasuredForces measured = measured_forces_from(text, "x.mot");
+  EXPECT_EQ(measured.samples[1].rest, Vector3d(1, -3, 200));
+  EXPECT_TRUE(measured.samples[0].valid[0]) << "the left foot is on nothing";
 }
 
 /// A .mot of 2 s with 100 rows a second. @param load  (time, whether of the right foot) → N

@@ -153,9 +153,13 @@ TEST(ForceComparison, MassIsThatOfTheFramesThatCount) {
       sample.valid[0] = false;
       sample.force[0].setZero();
     }
+  // A hand carries a tenth of the load.
+  const double hand = 0.1 * kGravity * mass;
+  for (auto& sample : pressed.measured.samples) sample.rest.z() = hand;
+  for (auto& acting : pressed.motion.forces) acting.ground[kLeftWrist][5] = hand;
   // The body moves down at first and up at last: more than its weight presses.
   for (auto& sample : pressed.measured.samples)
-    for (Vector3d& force : sample.force) force *= 1.3;
+    for (Vector3d* force : {&sample.force[0], &sample.force[1], &sample.rest}) *force *= 1.3;
   for (auto& acting : pressed.motion.forces)
     for (Vector6d& wrench : acting.ground) wrench *= 1.3;
   const ComparedMotion compared = compare_forces(pressed.motion, pressed.measured, NAN);

@@ -13,26 +13,46 @@ namespace {
 
 Vector3d from_ground(const Vector3d& v) { return {v.x(), -v.z(), v.y()}; }
 
+using AxisColumns = Array<std::size_t, 3>;
+
 /// Three columns of a foot, "_vx", "_vy", "_vz" behind the names' common part.
 struct FootColumns {
-  Array<std::size_t, 3> force, pressure;
+  AxisColumns force, pressure;
 };
+
+/// @param name  of the first but for its axis
+AxisColumns three_columns(const StorageTable& table, const std::string& path, const std::string& name) {
+  AxisColumns columns{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = table.find(name + "xyz"[axis]);
+    if (!at) throw DataError(path, name + "xyz"[axis], "a column of this name", "none");
+    columns[axis] = *at;
+  }
+  return columns;
+}
 
 FootColumns foot_columns(const StorageTable& table, const std::string& path,
                          std::initializer_list<const char*> prefixes) {
-  for (const std::string prefix : prefixes) {
-    if (!table.find(prefix + "vx")) continue;
-    FootColumns columns{};
-    for (int axis = 0; axis < 3; ++axis)
-      for (const auto& [what, into] : {std::pair("v", &columns.force), {"p", &columns.pressure}}) {
-        const std::string name = prefix + what + "xyz"[axis];
-        const auto at = table.find(name);
-        if (!at) throw DataError(path, name, "a column of this name", "none");
-        (*into)[axis] = *at;
-      }
-    return columns;
-  }
+  for (const std::string prefix : prefixes)
+    if (table.find(prefix + "vx"))
+      return {three_columns(table, path, prefix + "v"), three_columns(table, path, prefix + "p")};
   throw DataError(path, std::string(*prefixes.begin()) + "vx", "a column of this name", "none");
+}
+
+/// @throws DataError for a column of forces that is none of `taken` and not all zero
+void refuse_further_plates(const StorageTable& table, const std::string& path,
+                           const std::vector<AxisColumns>& taken) {
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const std::string& name = table.columns[k];
+    const bool is_force = name.ends_with("_vx") || name.ends_with("_vy") || name.ends_with("_vz");
+    const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const AxisColumns& columns) {
+      return std::find(columns.begin(), columns.end(), k) != columns.end();
+    });
+    if (!is_force || is_taken) continue;
+    if (std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return row[k] != 0.0; }))
+      throw DataError(path, name, "forces of the right and of the left foot alone",
+                      "those of a further plate");
+  }
 }
 
 /// Marks the samples in which a foot may be on the floor beside the plates.
@@ -60,19 +80,24 @@ MeasuredForces from_mot(const std::string& text, const std::string& path) {
   const StorageTable table = parse_storage(text, path);
   const FootColumns feet[] = {foot_columns(table, path, {"ground_force_l_", "1_ground_force_"}),
                               foot_columns(table, path, {"ground_force_r_", "ground_force_"})};
+  std::vector<AxisColumns> taken = {feet[0].force, feet[1].force};
+  const bool whole = table.find("ground_force_o_vx").has_value();
+  if (whole) taken.push_back(three_columns(table, path, "ground_force_o_v"));
+  refuse_further_plates(table, path, taken);
   MeasuredForces measured;
   for (const std::vector<double>& row : table.rows) {
+    const auto vector = [&](const AxisColumns& at) {
+      return from_ground({row[at[0]], row[at[1]], row[at[2]]});
+    };
     ForceSample& sample = measured.samples.emplace_back();
     sample.time = row[0];
+    if (whole) sample.rest = vector(taken[2]);
     for (int foot = 0; foot < 2; ++foot) {
-      const auto vector = [&](const Array<std::size_t, 3>& at) {
-        return from_ground({row[at[0]], row[at[1]], row[at[2]]});
-      };
       sample.force[foot] = vector(feet[foot].force);
       sample.pressure[foot] = vector(feet[foot].pressure);
     }
   }
-  if (!measured.samples.empty()) mark_unseen(measured);
+  if (!whole && !measured.samples.empty()) mark_unseen(measured);
   return measured;
 }
 
@@ -142,7 +167,8 @@ MeasuredForces measured_forces_from(const std::string& bytes, const std::filesys
                                                                   : from_mot(bytes, path.string());
   if (measured.samples.empty()) throw DataError(path.string(), "", "at least one sample of forces", "none");
   for (std::size_t i = 0; i < measured.samples.size(); ++i)
-    for (const Vector3d& force : measured.samples[i].force)
+    for (const Vector3d& force :
+         {measured.samples[i].force[0], measured.samples[i].force[1], measured.samples[i].rest})
       if (!force.allFinite())
         throw DataError(path.string(), "sample " + std::to_string(i), "finite forces", "one that is not");
   return measured;

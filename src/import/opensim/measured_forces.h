@@ -2,8 +2,10 @@
 ///
 /// Two formats. OpenSim's .mot: y up, metres, newtons, columns ground_force_r_vx … or, as older files have
 /// them, ground_force_vx … of the right and 1_ground_force_vx … of the left foot; (x, y, z) there is
-/// (x, −z, y) here. An .npz: grf_left, grf_right (samples, 3) in N and cop_left, cop_right (samples, 3) in m,
-/// z up; grf_fps; optional valid (samples, 2), mass in kg, joints (frames, 22, 3) with fps.
+/// (x, −z, y) here. Forces of ground_force_o_vx … are on the rest of the body, as `mimicx convert` writes
+/// them; such a file has all forces. A further plate under load belongs to no foot and is refused. An .npz:
+/// grf_left, grf_right (samples, 3) in N and cop_left, cop_right (samples, 3) in m, z up; grf_fps; optional
+/// valid (samples, 2), mass in kg, joints (frames, 22, 3) with fps.
 ///
 /// Where a file does not say `valid`, an unloaded foot may be in the air or on the floor beside the plates.
 /// It counts as in the air between its first and its last load, as in the flight of a jump, and for kSwing
@@ -28,6 +30,7 @@ inline constexpr double kSwing = 0.1;        ///< s
 struct ForceSample {
   double time = 0.0;                    ///< s
   Array<Vector3d, 2> force, pressure;   ///< [left, right] N; centre of pressure, m, not finite: unknown
+  Vector3d rest = Vector3d::Zero();     ///< force on the rest of the body, N
   Array<bool, 2> valid = {true, true};  ///< the foot is on a plate, or on nothing
 };
 
@@ -39,7 +42,7 @@ struct MeasuredForces {
   std::string told;  ///< which samples are valid, one line; empty: the file says it, or all are
 };
 
-/// @throws DataError for a file that is none of these
+/// @throws DataError for a file that is none of these, and for one with forces of a further plate
 MeasuredForces read_measured_forces(const std::filesystem::path& path);
 /// @param path  for messages
 MeasuredForces measured_forces_from(const std::string& bytes, const std::filesystem::path& path);

@@ -32,6 +32,7 @@ constexpr int kAround = 3;           ///< frames around a stance in which the ot
 struct FeetSeries {
   PerFrame<Array<Vector3d, 2>> force;     ///< (forward, left, up) of the hips, body weights
   PerFrame<Array<Vector3d, 2>> newtons;   ///< world axes, N
+  PerFrame<Vector3d> rest;                ///< force on the rest of the body, world axes, N
   PerFrame<Array<Vector3d, 2>> pressure;  ///< m; not finite: none
   PerFrame<Array<bool, 2>> valid;
   PerFrame<PerBody<Vector3d>> joints;  ///< at the frames, m
@@ -39,6 +40,7 @@ struct FeetSeries {
 
   int frames() const { return force.count(); }
   Vector3d total(int t) const { return force[t][0] + force[t][1]; }
+  double load(int t) const { return (newtons[t][0] + newtons[t][1] + rest[t]).z(); }  ///< of the body, N
 };
 
 /// At the middles of the intervals that end at the frames; of the first frame as far before it.
@@ -58,6 +60,7 @@ FeetSeries simulated_series(const audit::SimulatedFrames& motion) {
   const PerFrame<PerBody<Vector3d>> middle = midway(series.joints);
   for (int t = 0; t < middle.count(); ++t) {
     const auto wrenches = files::floor_wrenches(motion.forces[static_cast<std::size_t>(t)].ground, middle[t]);
+    series.rest.push_back(wrenches[files::kOnTheRest].tail<3>());
     auto& force = series.newtons.emplace_back();
     auto& pressure = series.pressure.emplace_back();
     for (int foot = 0; foot < 2; ++foot) {
@@ -81,6 +84,7 @@ FeetSeries measured_series(const import::MeasuredForces& measured, double fps, i
   std::size_t next = 0;
   for (int t = 0; t < frames && t <= fps * last + 1e-6; ++t) {
     Array<Vector3d, 2> force, pressed;
+    Vector3d rest = Vector3d::Zero();
     force.fill(Vector3d::Zero());
     pressed.fill(Vector3d::Zero());
     Array<double, 2> load{};
@@ -91,6 +95,7 @@ FeetSeries measured_series(const import::MeasuredForces& measured, double fps, i
       if (sample.time - begin > t / fps + 1e-6) break;
       if (t == 0) continue;
       ++count;
+      rest += sample.rest;
       for (int foot = 0; foot < 2; ++foot) {
         force[foot] += sample.force[foot];
         valid[foot] = valid[foot] && sample.valid[foot];
@@ -107,6 +112,7 @@ FeetSeries measured_series(const import::MeasuredForces& measured, double fps, i
       valid[foot] = valid[foot] && count > 0;
     }
     series.newtons.push_back(force);
+    series.rest.push_back(rest / std::max(count, 1));
     series.pressure.push_back(pressed);
     series.valid.push_back(valid);
   }
@@ -127,6 +133,7 @@ PerFrame<PerBody<Vector3d>> joints_at(const import::MeasuredForces& measured, do
 
 void shorten(int frames, FeetSeries& series) {
   series.newtons.resize(frames);
+  series.rest.resize(frames);
   series.pressure.resize(frames);
   series.valid.resize(frames);
   series.joints.resize(frames);
@@ -343,8 +350,8 @@ double mass_on_plates(const ComparedForces& c) {
   double theirs = 0.0, ours = 0.0;  // N and N/kg
   for (int t = 0; t < c.counts.count(); ++t) {
     if (!c.both(t)) continue;
-    theirs += (c.b.newtons[t][0] + c.b.newtons[t][1]).z();
-    ours += (c.a.newtons[t][0] + c.a.newtons[t][1]).z() / c.a.mass;
+    theirs += c.b.load(t);
+    ours += c.a.load(t) / c.a.mass;
   }
   if (!(theirs > 0.0 && ours > 0.0))
     throw DataError("", "", "--mass, or frames in which the plates see both feet and a load", "none");
