@@ -78,8 +78,12 @@ struct Pressed {
   }
 };
 
+ComparedMotion compared(const Pressed& pressed, double mass) {
+  return compare_forces(pressed.motion, audit::load_sharing(pressed.motion), pressed.measured, mass);
+}
+
 std::map<std::string, double> values_of(const Pressed& pressed, double mass = NAN) {
-  const std::vector<double> values = compare_forces(pressed.motion, pressed.measured, mass).values;
+  const std::vector<double> values = compared(pressed, mass).values;
   std::map<std::string, double> named;
   for (std::size_t k = 0; k < values.size(); ++k) named[force_columns()[k].name] = values[k];
   return named;
@@ -162,13 +166,13 @@ TEST(ForceComparison, MassIsThatOfTheFramesThatCount) {
     for (Vector3d* force : {&sample.force[0], &sample.force[1], &sample.rest}) *force *= 1.3;
   for (auto& acting : pressed.motion.forces)
     for (Vector6d& wrench : acting.ground) wrench *= 1.3;
-  const ComparedMotion compared = compare_forces(pressed.motion, pressed.measured, NAN);
-  ASSERT_EQ(compared.told.size(), 1u);
-  EXPECT_NE(compared.told[0].find(formatted("mass %.1f kg", mass)), std::string::npos) << compared.told[0];
+  const std::vector<std::string> told = compared(pressed, NAN).told;
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find(formatted("mass %.1f kg", mass)), std::string::npos) << told[0];
   EXPECT_NEAR(values_of(pressed).at("totV"), 0.0, 1e-6);
-  EXPECT_TRUE(compare_forces(pressed.motion, pressed.measured, mass).told.empty());
+  EXPECT_TRUE(compared(pressed, mass).told.empty());
   for (auto& sample : pressed.measured.samples) sample.valid[0] = false;
-  EXPECT_THROW(compare_forces(pressed.motion, pressed.measured, NAN), DataError);
+  EXPECT_THROW(compared(pressed, NAN), DataError);
   EXPECT_EQ(values_of(pressed, mass).at("n"), 0.0);
 }
 
@@ -196,7 +200,7 @@ TEST(ForceComparison, FramesBesideThePlatesDoNotCount) {
   EXPECT_GT(v.at("n"), 20);
   EXPECT_LT(v.at("totV"), 6.0) << "but for the filter of the study";
   EXPECT_NEAR(values_of(pressed).at("imp%"), 0.0, 1e-6);
-  EXPECT_NE(compare_forces(pressed.motion, plates, NAN).told.at(1).find("mass 8"), std::string::npos);
+  EXPECT_NE(compared(pressed, NAN).told.at(1).find("mass 8"), std::string::npos);
 }
 
 /// Moments that grow with time, and a table of them with 60 rows a second.
@@ -425,6 +429,64 @@ TEST(ForceComparison, PrintsTheTableOfTheStudyInPython) {
   for (std::string theirs, mine; std::getline(file, theirs) && std::getline(ours, mine); ++lines)
     EXPECT_EQ(without_moments(mine.substr(0, theirs.size())), without_moments(theirs));
   EXPECT_EQ(lines, 4) << "head, two trials, means";
+}
+
+TEST(ForceFiles, SharingIsThatOfTheMotionsFile) {
+  const TemporaryFolder folder;
+  Pressed pressed(30);
+  for (motion::ReferenceFrame& frame : pressed.motion.frames)
+    for (Vector3d& w : frame.omega) w.setZero();
+  const std::size_t frames = pressed.motion.frames.size();
+  Npz plates;
+  for (const int foot : {0, 1}) {
+    std::vector<double> force, pressure;
+    for (const import::ForceSample& sample : pressed.measured.samples) {
+      files::append(sample.force[foot], force);
+      files::append(sample.pressure[foot], pressure);
+    }
+    const std::vector<std::size_t> shape = {pressed.measured.samples.size(), 3};
+    plates.set(foot == 0 ? "grf_left" : "grf_right", NpyArray::from_double(shape, force.data()));
+    plates.set(foot == 0 ? "cop_left" : "cop_right", NpyArray::from_double(shape, pressure.data()));
+  }
+  plates.set("grf_fps", NpyArray::scalar(300.0));
+  write_npz(folder.path / "plates.npz", plates);
+  files::WrenchRows ground(frames), self(frames);
+  files::VectorRows torques(frames), ranges(frames);
+  for (std::size_t t = 0; t < frames; ++t) {
+    const rl::tracking::ActingForces& acting = pressed.motion.forces[t];
+    ground[t] = acting.ground;
+    self[t] = acting.self_contact;
+    torques[t] = acting.joint_torque;
+    ranges[t] = acting.range_torque;
+  }
+  // As narrow as of a floor without friction: all on the left foot.
+  audit::LoadSharing left = audit::LoadSharing::none();
+  const double weight = kGravity * pressed.motion.character.total_mass();
+  left.least[0].z() = left.most[0].z() = left.least_effort[0].z() = weight;
+  const motion::Clip clip = motion::standing_clip(30);
+  const auto wide_of = [&](const PerFrame<audit::LoadSharing>& sharing) {
+    using files::Precision;
+    files::Members members = {
+        {"joints", motion::joint_positions_member(clip)},
+        {"velocities", files::velocities_member(pressed.motion.frames, Precision::kFloat64)},
+        {"joint_torques", files::joints_member(torques, Precision::kFloat64)},
+        {"range_torques", files::joints_member(ranges, Precision::kFloat64)},
+        {"ground_wrenches", files::wrenches_member(ground, Precision::kFloat64)},
+        {"self_contact_wrenches", files::wrenches_member(self, Precision::kFloat64)}};
+    if (!sharing.empty())
+      for (const auto& member : audit::sharing_members(sharing)) members.push_back(member);
+    motion::write_clip(folder.path / "plates_motion.npz", clip, members);
+    const ForceTable table =
+        evaluate_forces(folder.path / "plates.npz", folder.path / "plates_motion.npz", NAN);
+    EXPECT_EQ(table.rows.at(0).reason, "");
+    EXPECT_FALSE(table.rows.at(0).told.empty()) << "where the mass is from";
+    for (std::size_t k = 0; k < table.columns->size(); ++k)
+      if ((*table.columns)[k].name == std::string("wide") && table.rows[0].reason.empty())
+        return table.rows[0].values[k];
+    return std::nan("");
+  };
+  EXPECT_GT(wide_of({}), 10.0) << "computed where the file has none";
+  EXPECT_NEAR(wide_of(PerFrame<audit::LoadSharing>(frames, left)), 0.0, 1e-9);
 }
 
 TEST(ForceFiles, OfOneNameThatOfTheGroundForcesCounts) {

@@ -425,7 +425,12 @@ ForceRow row_of_forces(const std::string& name, const std::filesystem::path& mea
       row.values = compare_inverse_dynamics(frames, table, mass, measured.string());
       return row;
     }
-    ComparedMotion compared = compare_forces(frames, import::read_measured_forces(measured), mass);
+    // The file's own is of the friction that it was simulated with.
+    const PerFrame<audit::LoadSharing> sharing = npz.has("foot_force_least")
+                                                     ? audit::read_sharing(npz, frames.frames.size())
+                                                     : audit::load_sharing(frames);
+    const ComparedMotion compared =
+        compare_forces(frames, sharing, import::read_measured_forces(measured), mass);
     row.values = compared.values;
     for (const std::string& line : compared.told) row.told.push_back(measured.string() + ": " + line);
   } catch (const std::exception& error) {
@@ -520,8 +525,9 @@ const std::vector<ForceColumn>& moment_columns() {
   return columns;
 }
 
-ComparedMotion compare_forces(const audit::SimulatedFrames& motion, const import::MeasuredForces& measured,
-                              double mass) {
+ComparedMotion compare_forces(const audit::SimulatedFrames& motion,
+                              const PerFrame<audit::LoadSharing>& sharing,
+                              const import::MeasuredForces& measured, double mass) {
   const ComparedForces c = common_frames(motion, measured, mass);
   Named named;
   named["kg"] = c.a.mass;
@@ -529,7 +535,7 @@ ComparedMotion compare_forces(const audit::SimulatedFrames& motion, const import
   compare_feet(c, named);
   compare_stances(c, motion.fps, named);
   compare_pressure(c, named);
-  compare_double_support(c, audit::load_sharing(motion), named);
+  compare_double_support(c, sharing, named);
   compare_moments(c, motion, named);
   if (!measured.joints.empty()) named["mm"] = tracking(c);
   ComparedMotion compared;

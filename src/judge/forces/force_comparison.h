@@ -43,12 +43,14 @@ struct ComparedMotion {
   std::vector<std::string> told;  ///< as in ForceRow, without the file's name
 };
 
+/// @param sharing  of the motion's frames
 /// @param mass  of the person, kg; NaN: that of the measurement, or else the one with which the plates'
 /// impulse
 ///              in the frames that count is what the motion needs
 /// @throws DataError if the two have fewer than five frames in common, and if there is no mass
-ComparedMotion compare_forces(const audit::SimulatedFrames& motion, const import::MeasuredForces& measured,
-                              double mass);
+ComparedMotion compare_forces(const audit::SimulatedFrames& motion,
+                              const PerFrame<audit::LoadSharing>& sharing,
+                              const import::MeasuredForces& measured, double mass);
 
 /// Pairs files of the same name ("walk" also for walk_grf.mot and walk_ID.sto) in two folders, or two files.
 /// A .sto, and a folder without .npz and .mot but with these, is compared by `moment_columns()`.
