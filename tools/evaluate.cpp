@@ -105,9 +105,19 @@ int evaluate_published(const EvaluateArguments& a) {
   return all_good ? kAllGood : kSomeFailed;
 }
 
-int evaluate_against_plates(const EvaluateArguments& a) {
+/// @throws UsageError for what --forces does not use: simulated motions and measurements have their units and
+/// axes
+void check_force_arguments(const EvaluateArguments& a) {
   if (a.motions.size() > 1)
     throw UsageError("evaluate: --forces compares one folder of --motions, or one file");
+  import::ReadConfig unused = a.read;
+  unused.mass.reset();
+  if (!unused.text().empty())
+    throw UsageError("evaluate: of the options of reading --forces uses --mass alone, found " +
+                     unused.text());
+}
+
+int evaluate_against_plates(const EvaluateArguments& a) {
   const judge::ForceTable table = judge::evaluate_forces(
       a.forces, a.motions.front(), a.read.mass.value_or(std::numeric_limits<double>::quiet_NaN()));
   for (const judge::ForceRow& row : table.rows)
@@ -121,6 +131,7 @@ int evaluate_against_plates(const EvaluateArguments& a) {
 
 int evaluate(const EvaluateArguments& a) {
   if (a.truth.empty() == a.forces.empty()) throw UsageError("evaluate needs --truth, or else --forces");
+  if (!a.forces.empty()) check_force_arguments(a);
   if (!is_standard_output(a.json))
     record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
   if (!a.forces.empty()) return evaluate_against_plates(a);
@@ -164,7 +175,7 @@ void declare_evaluate(CommandLine& line) {
       .path("--forces", a->forces,
             "instead, forces that plates have measured, to compare the motions' forces with: .mot or .npz, "
             "or a folder of them; or moments of OpenSim's inverse dynamics, .sto; docs/forces.md. --mass is "
-            "the person's mass")
+            "the person's mass; the other options of reading do not go with it")
       .excludes(truth);
   command
       .paths("--motions", a->motions,

@@ -106,6 +106,17 @@ TEST_F(Cli, BadValueErrorIsOneLineWithTheExpectedValue) {
   }
 }
 
+TEST_F(Cli, ForcesRefuseOptionsOfReadingThatTheyDoNotUse) {
+  motion::write_clip(path("walk.npz"), motion::standing_clip(10));
+  const std::string forces = "evaluate --forces " + path("walk.mot") + " --motions " + path("walk.npz");
+  const Call call = mimicx(forces + " --mass 70 --up y --scale 7 --height 1.8");
+  EXPECT_EQ(call.status, 2) << call.text;
+  EXPECT_TRUE(says(call, "up=y") && says(call, "scale=7") && says(call, "height=1.8")) << call.text;
+  EXPECT_FALSE(says(call, "mass=70")) << call.text;
+  EXPECT_EQ(lines_of(call.text).size(), 1u) << call.text;
+  EXPECT_EQ(mimicx(forces + " --mass 70").status, 1) << "there is no walk.mot";
+}
+
 TEST_F(Cli, ClosedPipeFinishesTheWorkWithStatusOne) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string fit = std::string(MIMICX_BINARY) + " fit " + path("a.npz") + " --out " + path("out");
