@@ -15,7 +15,7 @@ constexpr double kSupportWindow = 1.2;         ///< s
 constexpr double kSupportSmoothing = 0.3;      ///< s, standard deviation
 constexpr double kMaxDrift = 0.15;             ///< m
 constexpr double kPenetrationAllowed = 0.010;  ///< m
-constexpr int kLiftRadius = 2;                 ///< frames
+constexpr double kLiftRadius = 1.0 / 15.0;     ///< s
 
 /// Gaussian of standard deviation `sigma` (frames), normalised where the ends cut it.
 PerFrame<double> smoothed(const PerFrame<double>& x, double sigma) {
@@ -34,22 +34,23 @@ PerFrame<double> smoothed(const PerFrame<double>& x, double sigma) {
 }
 
 /// A smooth curve nowhere under `need`: the maximum over twice the radius, averaged twice over the radius.
-PerFrame<double> smooth_cover(const PerFrame<double>& need) {
+PerFrame<double> smooth_cover(const PerFrame<double>& need, double fps) {
+  const int radius = static_cast<int>(std::lround(kLiftRadius * fps));
   const auto highest = [](const std::vector<double>& w) { return *std::max_element(w.begin(), w.end()); };
   const auto mean = [](const std::vector<double>& w) {
     double sum = 0.0;
     for (const double v : w) sum += v;
     return sum / static_cast<double>(w.size());
   };
-  return sliding(sliding(sliding(need, 2 * kLiftRadius, highest), kLiftRadius, mean), kLiftRadius, mean);
+  return sliding(sliding(sliding(need, 2 * radius, highest), radius, mean), radius, mean);
 }
 
 }  // namespace
 
-PerFrame<double> lift_over_floor(const PerFrame<double>& lowest) {
+PerFrame<double> lift_over_floor(const PerFrame<double>& lowest, double fps) {
   PerFrame<double> need;
   for (double z : lowest) need.push_back(std::max(0.0, -z - kPenetrationAllowed));
-  return smooth_cover(need);
+  return smooth_cover(need, fps);
 }
 
 FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<double>& lifted, double fps,
@@ -63,7 +64,7 @@ FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<
   drift = smoothed(drift, kSupportSmoothing * fps);
   PerFrame<double> moved;
   for (int t = 0; t < lowest.count(); ++t) moved.push_back(lifted[t] + out.shift + drift[t]);
-  const PerFrame<double> lift = lift_over_floor(moved);
+  const PerFrame<double> lift = lift_over_floor(moved, fps);
   for (int t = 0; t < lowest.count(); ++t) out.height.push_back(out.shift + drift[t] + lift[t]);
   return out;
 }

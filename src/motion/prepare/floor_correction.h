@@ -30,6 +30,6 @@ inline FloorCorrection floor_correction(const PerFrame<double>& lowest, double f
 }
 
 /// The third step alone: heights to add.
-PerFrame<double> lift_over_floor(const PerFrame<double>& lowest);
+PerFrame<double> lift_over_floor(const PerFrame<double>& lowest, double fps);
 
 }  // namespace mimicx::motion

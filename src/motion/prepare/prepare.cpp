@@ -110,7 +110,8 @@ void turn_back_into_ranges(bool ground, Reference& reference) {
   forward(reference);
   if (!ground) return;
   const PerFrame<double> lift = lift_over_floor(
-      standing_heights(surface_points(reference.character), reference.poses, reference.fps, reference.scene));
+      standing_heights(surface_points(reference.character), reference.poses, reference.fps, reference.scene),
+      reference.fps);
   for (int t = 0; t < reference.size(); ++t) reference.frames[t].p_root.z() += lift[t];
   forward(reference);
 }

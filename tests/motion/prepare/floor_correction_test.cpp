@@ -54,5 +54,19 @@ TEST(FloorCorrection, IgnoresNoiseOfAFewMillimetres) {
   for (std::size_t t = 1; t < z.size(); ++t) EXPECT_LT(std::abs(f.height[t] - f.height[t - 1]), 0.0003);
 }
 
+// At 120 frames per second the body is lifted as slowly as at 30.
+TEST(FloorCorrection, LiftHasTheSameAccelerationAtEveryRate) {
+  const auto largest = [](double fps) {
+    PerFrame<double> lowest(static_cast<std::size_t>(4.0 * fps), 0.0);
+    lowest[lowest.count() / 2] = -0.04;
+    const PerFrame<double> height = lift_over_floor(lowest, fps);
+    double most = 0.0;
+    for (int t = 1; t + 1 < height.count(); ++t)
+      most = std::max(most, fps * fps * std::abs(height[t + 1] - 2.0 * height[t] + height[t - 1]));
+    return most;
+  };
+  EXPECT_LT(largest(120.0), 1.1 * largest(30.0));
+}
+
 }  // namespace
 }  // namespace mimicx::motion
