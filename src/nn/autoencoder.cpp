@@ -21,9 +21,11 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
                               const std::function<void(int steps)>& progress) {
   const auto features = static_cast<int>(samples.cols());
   Random encoder_random(seed, {kEncoderInit}), decoder_random(seed, {kDecoderInit}), random(seed, {kBatches});
-  AutoEncoder coder{normaliser_of(samples, 5.0F),
+  AutoEncoder coder{make_normaliser<float>(features, 5.0F),
                     make_mlp<float>({features, config.hidden, config.code}, 1.0F, encoder_random),
                     make_mlp<float>({config.code, config.hidden, features}, 1.0F, decoder_random)};
+  const Moments moments = moments_of(samples);
+  update(coder.inputs, std::span<const Moments>(&moments, 1));
   Matrix<float> clean_samples;
   normalise(coder.inputs, samples, clean_samples);
 

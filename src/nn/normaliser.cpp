@@ -6,8 +6,21 @@ namespace mimicx::nn {
 
 namespace {
 
-/// Added to the variance, so that a constant feature becomes 0 and is not amplified.
+/// Added to the variance, so that small noise is not amplified to a deviation of 1.
 constexpr double kVarianceFloor = 1e-6;
+
+/// Times 1 + mean²: variance up to which a feature is constant. Rounding of the moments leaves less than it,
+/// and a feature in 32-bit floats that varies has more.
+constexpr double kConstantVariance = 1e-24;
+
+/// Sets shift and factor, that of constant features too.
+template <class S>
+void scale_all(Normaliser<S>& normaliser) {
+  const Moments& moments = normaliser.moments;
+  if (moments.count == 0) return;
+  normaliser.shift = moments.mean.cast<S>();
+  normaliser.factor = (moments.squares.array() / moments.count + kVarianceFloor).sqrt().inverse().cast<S>();
+}
 
 }  // namespace
 
@@ -45,17 +58,18 @@ Normaliser<S> make_normaliser(int features, S limit) {
 template <class S>
 Normaliser<S> normaliser_of(const Matrix<S>& samples, S limit) {
   Normaliser<S> normaliser = make_normaliser<S>(static_cast<int>(samples.cols()), limit);
-  const Moments moments = moments_of(samples);
-  update(normaliser, std::span<const Moments>(&moments, 1));
+  merge(normaliser.moments, moments_of(samples));
+  scale_all(normaliser);
   return normaliser;
 }
 
 template <class S>
 void refresh(Normaliser<S>& normaliser) {
+  scale_all(normaliser);
   const Moments& moments = normaliser.moments;
-  if (moments.count == 0) return;
-  normaliser.shift = moments.mean.cast<S>();
-  normaliser.factor = (moments.squares.array() / moments.count + kVarianceFloor).sqrt().inverse().cast<S>();
+  for (Eigen::Index j = 0; j < moments.mean.size() && moments.count > 0; ++j)
+    if (moments.squares[j] <= moments.count * kConstantVariance * (1.0 + moments.mean[j] * moments.mean[j]))
+      normaliser.factor(0, j) = S(0);
 }
 
 template <class S>
@@ -86,8 +100,11 @@ template <class S>
 void denormalise(const Normaliser<S>& normaliser, const Matrix<S>& x, Matrix<S>& output) {
   assert(x.cols() == normaliser.features());
   output.resize(x.rows(), x.cols());
-  output.array() =
-      (x.array().rowwise() / normaliser.factor.row(0).array()).rowwise() + normaliser.shift.row(0).array();
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      const S factor = normaliser.factor(0, j), shift = normaliser.shift(0, j);
+      output(i, j) = factor == S(0) ? shift : x(i, j) / factor + shift;
+    }
 }
 
 #define MIMICX_INSTANTIATE(S)                                                  \

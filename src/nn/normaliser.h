@@ -33,7 +33,7 @@ struct Normaliser {
   Moments moments;
   S limit = S(10);   ///< outputs are clipped to ± limit
   Matrix<S> shift;   ///< [1, features] mean
-  Matrix<S> factor;  ///< [1, features] 1 / deviation
+  Matrix<S> factor;  ///< [1, features] 1 / deviation; 0 of a constant feature
 
   int features() const { return static_cast<int>(moments.mean.size()); }
 };
@@ -42,11 +42,13 @@ struct Normaliser {
 template <class S>
 Normaliser<S> make_normaliser(int features, S limit = S(10));
 
-/// A normaliser that makes these samples unit normal.
+/// A normaliser that makes these samples unit normal. Constant features have a deviation, too, of 1e-3: for
+/// trainings that disturb every feature by a share of its deviation.
 template <class S>
 Normaliser<S> normaliser_of(const Matrix<S>& samples, S limit = S(10));
 
-/// Recomputes shift and factor from the moments.
+/// Recomputes shift and factor from the moments. A feature that was constant so far becomes 0, also if its
+/// value is another now: no weight on it has been trained.
 template <class S>
 void refresh(Normaliser<S>& normaliser);
 /// Merges the batches in the order given and refreshes shift and factor.
@@ -56,7 +58,7 @@ void update(Normaliser<S>& normaliser, std::span<const Moments> batches);
 /// (x − shift) · factor, clipped. x [n, features] → output of the same shape; output may be x itself.
 template <class S>
 void normalise(const Normaliser<S>& normaliser, const Matrix<S>& x, Matrix<S>& output);
-/// The inverse (without the clipping).
+/// The inverse (without the clipping); a constant feature becomes its mean.
 template <class S>
 void denormalise(const Normaliser<S>& normaliser, const Matrix<S>& x, Matrix<S>& output);
 

@@ -73,7 +73,13 @@ QuantisedLayer quantise_layer(const std::vector<std::int16_t>& rows, const std::
 void fold_inputs(const std::array<double, 10>& shape, rl::Agent& agent) {
   nn::Matrix<float>& W = agent.actor.weights.front();
   nn::Matrix<float>& b = agent.actor.biases.front();
-  const nn::Matrix<float>&mean = agent.observations.shift, &factor = agent.observations.factor;
+  const nn::Matrix<float>& mean = agent.observations.shift;
+  nn::Matrix<float>& factor = agent.observations.factor;
+  for (Index i = 0; i < W.rows(); ++i) {  // the same answers, and a factor by which one may divide
+    if (factor(0, i) != 0.0F) continue;
+    W.row(i).setZero();
+    factor(0, i) = 1.0F;
+  }
   const float limit = agent.observations.limit;
   const auto m = [&](Index i) { return static_cast<double>(mean(0, i)); };
   const auto f = [&](Index i) { return static_cast<double>(factor(0, i)); };

@@ -462,7 +462,10 @@ void observe(const CodedPolicy<Weight>& policy, const State& next, const State& 
   apply_network<kStateCount>(policy.encoder, policy.encoder_layers, nullptr, kPoseCount, x);
   for (int k = 0; k < policy.code_size(); ++k) out[k] = x[k];
   apply_network<kStateCount>(policy.decoder, policy.decoder_layers, nullptr, policy.code_size(), x);
-  for (int k = 0; k < kPoseCount; ++k) x[k] = x[k] / policy.pose_factor[k] + policy.pose_mean[k];
+  for (int k = 0; k < kPoseCount; ++k) {
+    const bool constant = policy.pose_factor[k] == 0.0F;
+    x[k] = constant ? policy.pose_mean[k] : x[k] / policy.pose_factor[k] + policy.pose_mean[k];
+  }
   // What depends on the heading turns from the target's own into that of the body.
   const Heading turn{heading.x * own.x + heading.y * own.y, heading.y * own.x - heading.x * own.y};
   constexpr int kRootVectors = 4, kHandsAndFeetAt = kPoseCount - 12;

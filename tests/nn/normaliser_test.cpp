@@ -69,6 +69,38 @@ TEST(Normaliser, ClipsAndDenormaliseInvertsItInsideTheLimit) {
     }
 }
 
+TEST(Normaliser, ConstantFeatureIsIgnoredAlsoWithAnotherValue) {
+  auto normaliser = make_normaliser<float>(4);
+  for (const std::uint64_t seed : {6, 7, 8}) {
+    const std::vector<Moments> batches = {moments_of(samples(777, seed))};
+    update<float>(normaliser, batches);
+  }
+  Matrix<float> x = samples(1, 9), y, back;
+  x(0, 3) = -2.0f;
+  normalise(normaliser, x, y);
+  EXPECT_EQ(y(0, 3), 0.0f);
+  denormalise(normaliser, y, back);
+  EXPECT_EQ(back(0, 3), 7.0f);
+  // It counts again as soon as it varies.
+  const std::vector<Moments> more = {moments_of(x)};
+  update<float>(normaliser, more);
+  normalise(normaliser, x, y);
+  EXPECT_LT(y(0, 3), -1.0f);
+}
+
+TEST(Normaliser, SmallestVariationOfAFloatIsNotConstant) {
+  Matrix<float> x = Matrix<float>::Constant(100000, 1, 0.3f);
+  x(50, 0) = std::nextafter(0.3f, 1.0f);
+  auto normaliser = make_normaliser<float>(1);
+  const std::vector<Moments> batches = {moments_of(x)};
+  update<float>(normaliser, batches);
+  EXPECT_GT(normaliser.factor(0, 0), 900.0f);
+}
+
+TEST(Normaliser, OfDisturbedSamplesHasADeviationForEveryFeature) {
+  EXPECT_FLOAT_EQ(normaliser_of(samples(100, 10)).factor(0, 3), 1e3f);
+}
+
 TEST(Normaliser, IsTheIdentityWithoutSamples) {
   const auto normaliser = make_normaliser<double>(2);
   const Matrix<double> x = (Matrix<double>(1, 2) << 3.5, -12.0).finished();

@@ -39,6 +39,27 @@ TEST(QuantisedNetwork, FoldingInputsKeepsTheActions) {
   }
 }
 
+TEST(QuantisedNetwork, FoldingKeepsTheActionsIfTargetsWereConstant) {
+  rl::Agent agent = small_policy().agent;
+  for (const Eigen::Index k : {0, 40, 100}) agent.observations.moments.squares[k] = 0.0;
+  nn::refresh(agent.observations);
+  ASSERT_EQ(agent.observations.factor(0, 40), 0.0F);
+  rl::Agent folded = agent;
+  fold_inputs(small_policy().motion.character.betas, folded);
+  const auto& scale = agent.observations;
+  std::array<float, kStateCount> observation{};  // at the mean of the targets and of the differences
+  for (Eigen::Index i = 0; i < kStateCount; ++i) observation[static_cast<std::size_t>(i)] = scale.shift(0, i);
+  for (std::size_t k = 0; k < kShapeCount; ++k)
+    observation[kPoseCount + k] = static_cast<float>(small_policy().motion.character.betas[k]);
+  for (std::size_t k = 0; k < kPoseCount; ++k) {
+    const std::size_t is = kPoseCount + kShapeCount + k;
+    observation[k] += k == 40 ? 0.01F : 0.0F;  // a value that the training has not seen
+    observation[is] = observation[k] - observation[is + kPoseCount];
+  }
+  const auto one = action_of(agent, observation), other = action_of(folded, observation);
+  for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(one[k], other[k], 2e-5);
+}
+
 TEST(QuantisedNetwork, WeightsArePowerTimesScaleTimesCode) {
   rl::Agent agent = small_policy().agent;
   fold_inputs(small_policy().motion.character.betas, agent);
