@@ -59,7 +59,8 @@ run::SimulatedSequence fine_tune(const motion::Reference& reference, const optio
   rest.input_checksum = start_of_training(job, *sets[chosen.set], arranged.options);
   rl::tracking::TrackingRollout before =
       rl::tracking::roll_out(arranged.clip, tracking, rl::tracking::mean_action(arranged.agents));
-  const bool good_enough = training.stop_reward > 0.0 && before.mean_reward >= training.stop_reward;
+  const bool good_enough = training.stop_reward > 0.0 && rl::tracking::stays_with_clip(before) &&
+                           before.mean_reward >= training.stop_reward;
   TrainingConfig tuning = training;
   if (good_enough) tuning.samples = 0;
   run::SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, tuning, rest);

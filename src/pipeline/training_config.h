@@ -23,7 +23,8 @@ struct TrainingConfig {
   std::vector<int> hidden{128, 128};  ///< widths of the hidden layers of actor and critic
   double sigma_share = 0.75;          ///< share of the budget during which σ falls
   int evaluate_iterations = 20;       ///< every so many iterations the mean actions are rolled out
-  /// A roll-out of the mean actions with this mean reward, not softened, ends the training; 0: none does.
+  /// A roll-out of the mean actions that stays with the motion to its end and has this mean reward, not
+  /// softened, ends the training; 0: none does.
   double stop_reward = 0.0;
   /// The training ends after this many roll-outs in a row that follow the motion to its end without being
   /// better than the best one before; 0: it does not end so.

@@ -52,6 +52,7 @@ struct MeanRollout {
   double score = 0.0;           ///< m, mean over clips; smaller is better
   double reward = 0.0;          ///< mean over clips
   double position_error = 0.0;  ///< m, mean over clips
+  bool stayed = true;           ///< with every clip
 };
 
 MeanRollout evaluate(const Clips& clips, const rl::tracking::TrackingConfig& config,
@@ -61,13 +62,14 @@ MeanRollout evaluate(const Clips& clips, const rl::tracking::TrackingConfig& con
     const rl::tracking::TrackingRollout rollout =
         rl::tracking::roll_out(clips[k], config, rl::tracking::mean_action(agents));
     each[k] = {std::min(kFarthest, rl::tracking::distance_from_clip(rollout)), rollout.mean_reward,
-               rollout.mean_position_error};
+               rollout.mean_position_error, rl::tracking::stays_with_clip(rollout)};
   });
   MeanRollout mean;
   for (const MeanRollout& e : each) {
     mean.score += e.score / static_cast<double>(clips.size());
     mean.reward += e.reward / static_cast<double>(clips.size());
     mean.position_error += e.position_error / static_cast<double>(clips.size());
+    mean.stayed = mean.stayed && e.stayed;
   }
   return mean;
 }
@@ -186,7 +188,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
       consider(best, trainer, rollout.score);
       row.rollout_reward = rollout.reward;
       row.rollout_position_error = rollout.position_error;
-      if (config.stop_reward > 0.0 && rollout.reward >= config.stop_reward)
+      if (config.stop_reward > 0.0 && rollout.stayed && rollout.reward >= config.stop_reward)
         ending = record::SequenceEnding::kThreshold;
       else if (config.stall_evaluations > 0 && best.age >= config.stall_evaluations)
         ending = record::SequenceEnding::kStall;

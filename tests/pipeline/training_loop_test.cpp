@@ -2,8 +2,38 @@
 
 #include <gtest/gtest.h>
 
+#include "core/temporary_folder.h"
+#include "program/small_run.h"
+#include "rl/tracking/tracking_fixture.h"
+
 namespace mimicx::pipeline {
 namespace {
+
+struct Training : testing::Test {
+  /// Trains an agent that first does `action` in every state.
+  TrainingResult train_from(float action) const {
+    const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(60), config.tracking);
+    const TrainingFiles files = {folder.path / "agent.npz", folder.path / "log.csv",
+                                 folder.path / "falls.csv", "sway"};
+    TrainingControl control;
+    control.should_stop = [] { return false; };
+    control.progress = [](std::int64_t, const std::string&) {};
+    return train({clip}, {rl::tracking::agent_that_does(action)}, config, files, control);
+  }
+
+  TrainingConfig config = program::small_training();
+  TemporaryFolder folder;
+};
+
+TEST_F(Training, RewardEndsItIfTheMotionIsFollowed) {
+  config.stop_reward = 1e-9;
+  EXPECT_EQ(train_from(0.0F).ending, record::SequenceEnding::kThreshold);
+}
+
+TEST_F(Training, RewardOfARollOutThatLostTheMotionDoesNotEndIt) {
+  config.stop_reward = 1e-9;
+  EXPECT_EQ(train_from(1.5F).ending, record::SequenceEnding::kBudget);
+}
 
 TEST(Stall, CountsFollowingRollOutsWithoutImprovement) {
   EXPECT_EQ(stall_age(3, 0.020, 0.020), 4);

@@ -112,11 +112,14 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
   return out;
 }
 
+bool stays_with_clip(const TrackingRollout& rollout) {
+  return !rollout.broken && rollout.worst_distance <= motion::kMaxBodyDistance;
+}
+
 double distance_from_clip(const TrackingRollout& rollout) {
   constexpr double kBroken = 100.0;
   if (rollout.broken) return rollout.mean_position_error + kBroken;
-  const bool strayed = rollout.worst_distance > motion::kMaxBodyDistance;
-  return rollout.mean_position_error + (strayed ? rollout.worst_distance : 0.0);
+  return rollout.mean_position_error + (stays_with_clip(rollout) ? 0.0 : rollout.worst_distance);
 }
 
 }  // namespace mimicx::rl::tracking

@@ -57,6 +57,11 @@ struct TrackingRollout {
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy, bool substeps = false);
 
+/// Whether it reached the clip's end and no body strayed beyond the limit of success (docs/metrics.md). A
+/// mean reward counts with this alone: that of a broken roll-out is a mean over the frames before the
+/// failure.
+bool stays_with_clip(const TrackingRollout& rollout);
+
 /// How far a roll-out is from its clip, m; smaller is better. The mean position error; where a body strayed
 /// beyond the limit of success (docs/metrics.md), its largest distance on top, and where the simulation went
 /// wrong, 100 m. So a roll-out that strayed is worse than any that did not.

@@ -25,6 +25,18 @@ TEST(TrackingRollout, FollowsAStandingReferenceAndReportsItsForces) {
   EXPECT_NEAR(vertical, weight, 0.25 * weight);
 }
 
+TEST(TrackingRollout, StaysWithItsClipToTheLimitOfSuccessAndNotIfItBroke) {
+  TrackingRollout rollout;
+  rollout.mean_reward = 1.0;
+  rollout.worst_distance = 0.5;
+  EXPECT_TRUE(stays_with_clip(rollout));
+  rollout.worst_distance = 0.51;
+  EXPECT_FALSE(stays_with_clip(rollout));
+  rollout.worst_distance = 0.1;
+  rollout.broken = true;
+  EXPECT_FALSE(stays_with_clip(rollout));
+}
+
 // The policy's state counts heights from the ground: everything on a plate of 0.25 m, and it acts as on the
 // floor.
 TEST(TrackingRollout, PolicyActsOnAPlateAsOnTheFloor) {
