@@ -102,9 +102,11 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   taught.alone = alone();
   judge::Scores scores = judge::score_simulated(teacher->clip->reference, taught.alone);
   if (config.polish_samples > 0 && !scores.success) {
-    run::SimulatedSequence polished = polish(*teacher, *student, config, training, job);
+    const run::SequenceJob rest = run::after_seconds(job, record::steady_seconds() - watch.started);
+    run::SimulatedSequence polished = polish(*teacher, *student, config, training, rest);
     taught.interrupted = polished.interrupted;
     if (taught.interrupted) return taught;
+    taught.timed_out = polished.ending == record::SequenceEnding::kLimitSeconds;
     taught.samples = polished.samples;
     taught.values.emplace_back("polish_samples", static_cast<double>(polished.samples));
     student = polished.agents.front();
@@ -112,6 +114,8 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
     scores = judge::score_simulated(teacher->clip->reference, taught.alone);
   }
   try_out(*teacher, config, task, *student, scores, taught);
+  if (taught.timed_out)
+    taught.note += (taught.note.empty() ? "" : "; ") + std::string("--limit-seconds stopped its training");
   taught.alone = seen_from(reference, task, std::move(taught.alone));
   taught.policy = files::StoredPolicy{teacher->clip->reference, plan.states, task.simulation, *student};
   taught.seconds = record::steady_seconds() - watch.started;

@@ -16,14 +16,14 @@
 namespace mimicx::teaching {
 
 struct TaughtPolicy {
-  bool interrupted = false;                   ///< the job's context requested a stop: nothing below is set
-  bool timed_out = false;                     ///< the job's seconds ran out: only the note is set
+  bool interrupted = false;  ///< the job's context requested a stop: nothing below is set
+  bool timed_out = false;    ///< the job's seconds ran out; only the note is set if the lessons were stopped
   std::optional<files::StoredPolicy> policy;  ///< none if the plan gave no teacher
   NamedValues values;                   ///< for the manifest: how it was taught, and how well it acts unaided
   rl::tracking::TrackingRollout alone;  ///< its roll-out, with rewards against the prepared reference
   std::int64_t samples = 0;             ///< of PPO
   double seconds = 0.0;
-  std::string note;  ///< why there is no policy, or why it is no success
+  std::string note;  ///< why there is no policy, why it is no success, or what ended its training
 };
 
 /// @param reference  of the plan @param plan  complete

@@ -434,13 +434,32 @@ TEST_F(Adapt, RecordsTeachingStoppedByTheTimeLimit) {
   EXPECT_FALSE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));
 }
 
-TEST_F(Adapt, FallingStudentIsPolishedByPpo) {
-  pretrain_once("options");
-  AdaptConfig config = teaching_quickly(adapting("run", "options"));
-  config.run.inputs = {(motions / "walk.npz").string()};
+/// A student that learns nonsense from one round of lessons.
+AdaptConfig teaching_nonsense(AdaptConfig config) {
   config.teaching.student.rounds = 1;
   config.teaching.student.stages = 1;
-  config.teaching.student.step_size = config.teaching.student.last_step_size = 1.0;  // it learns nonsense
+  config.teaching.student.step_size = config.teaching.student.last_step_size = 1.0;
+  return config;
+}
+
+TEST_F(Adapt, RecordsPolishingStoppedByTheTimeLimit) {
+  pretrain_once("options");
+  AdaptConfig config = teaching_nonsense(teaching_quickly(adapting("run", "options")));
+  config.run.inputs = {(motions / "walk.npz").string()};
+  config.teaching.polish_samples = 1000000000;
+  config.run.limit_seconds = 2.0;
+  run(config);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kLimitSeconds);
+  EXPECT_TRUE(entry.ok) << "the plan's motion is there all the same";
+  const auto told = [](const std::string& note) { return note.find("--limit-seconds") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(entry.notes.begin(), entry.notes.end(), told));
+}
+
+TEST_F(Adapt, FallingStudentIsPolishedByPpo) {
+  pretrain_once("options");
+  AdaptConfig config = teaching_nonsense(teaching_quickly(adapting("run", "options")));
+  config.run.inputs = {(motions / "walk.npz").string()};
   config.teaching.polish_samples = 3 * 64 * 8;
   run(config);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
