@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "record/commit.h"
 #include "record/outputs.h"
+#include "record/utf8_names.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -87,6 +88,14 @@ std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& fold
   for (const record::Json& input : there.at("inputs").elements())
     if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
   return record::RunOutcome::kAllGood;
+}
+
+std::string identity_of_option(record::Json record, const std::vector<std::string>& members) {
+  for (const char* budget : {"samples", "earlier_samples"}) record[budget] = nullptr;
+  record::Json names = record::Json::array();
+  for (const std::string& member : members) names.push_back(record::to_utf8(member));
+  record["members"] = names;
+  return record::checksum(record.dump());
 }
 
 void begin_options(const record::RunFolder& folder, const record::Json& record) {

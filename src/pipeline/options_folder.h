@@ -34,6 +34,11 @@ bool let_budget_grow(const record::RunFolder& folder, record::Json& record);
 std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
                                                    const record::Json& record);
 
+/// Identifies the training of one option, whatever its budgets: a checkpoint of another one is not continued.
+/// @param record  everything that the run's results depend on
+/// @param members  names of the option's motions
+std::string identity_of_option(record::Json record, const std::vector<std::string>& members);
+
 /// Makes the folder and writes the manifest of a run that begins.
 void begin_options(const record::RunFolder& folder, const record::Json& record);
 

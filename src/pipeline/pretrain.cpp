@@ -119,10 +119,11 @@ struct OptionTraining {
 
 /// Encoder and policy of one cluster.
 /// @param budgets  samples of the option, ascending; each is spent before the next
+/// @param identity  of the option (options_folder.h)
 OptionTraining train_option(const PretrainConfig& config, const record::RunContext& context,
-                            const options::Clusters& clusters, int index,
-                            const std::vector<std::int64_t>& budgets, const Motions& motions) {
-  const options::MotionCluster& cluster = clusters.clusters[index];
+                            const options::MotionCluster& cluster, int index,
+                            const std::vector<std::int64_t>& budgets, const std::string& identity,
+                            const Motions& motions) {
   const std::string name = "option" + std::to_string(index);
   TrainingConfig training = config.training;
   training.seed += static_cast<std::uint64_t>(index);
@@ -147,7 +148,7 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   const rl::Agent start = untrained_agent(training, clips.front()->state_size());
 
   const record::RunFolder folder{config.out};
-  const TrainingFiles files = {folder.checkpoint(name), folder.log(name), folder.falls(name), name};
+  const TrainingFiles files = {folder.checkpoint(name), folder.log(name), folder.falls(name), identity};
   TrainingControl control;
   control.threads = config.threads;
   control.should_stop = context.should_stop;
@@ -230,8 +231,12 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   set.actions = config.training.tracking.actions;
   record::Json trained = record::Json::array();
   for (int index = 0; index < clusters.clusters.count(); ++index) {
-    OptionTraining made =
-        train_option(config, context, clusters, index, budgets[static_cast<std::size_t>(index)], motions);
+    const options::MotionCluster& cluster = clusters.clusters[index];
+    const std::vector<std::int64_t>& shares = budgets[static_cast<std::size_t>(index)];
+    // The first budget decides how long the encoder is trained.
+    const std::string identity =
+        identity_of_option(record, cluster.members) + ' ' + std::to_string(shares.front());
+    OptionTraining made = train_option(config, context, cluster, index, shares, identity, motions);
     if (made.interrupted) {
       context.progress.finish("interrupted; the same command continues");
       return record::RunOutcome::kInterrupted;

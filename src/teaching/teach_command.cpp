@@ -19,6 +19,7 @@ namespace mimicx::teaching {
 namespace {
 
 constexpr double kCheckpointSeconds = 60.0;  ///< least time between two checkpoints, s
+constexpr const char* kIdentityKey = "input_checksum";
 
 /// Plans the motions that have no plan yet.
 record::RunOutcome plan_inputs(const TeachConfig& config, const record::RunContext& context) {
@@ -98,6 +99,7 @@ std::vector<PlannedMotion> members(const pipeline::options::MotionCluster& clust
 /// One policy to be taught.
 struct OptionLessons {
   std::string name;                    ///< of its files
+  std::string identity;                ///< options_folder.h
   std::vector<PlannedMotion> motions;  ///< whose plans teach it
   SchoolConfig school;
   rl::tracking::TrackingConfig task;  ///< with the simulation of all plans
@@ -109,22 +111,28 @@ struct TeachingState {
   record::Table log{{"round", "lessons", "put_back", "loss"}, {}};
 };
 
-TeachingState resumed(const record::RunFolder& folder, const std::string& name, const SchoolConfig& school) {
-  TeachingState state{untrained_pupil(school)};
-  if (!std::filesystem::exists(folder.checkpoint(name))) return state;
-  state.pupil = load_pupil(read_npz(folder.checkpoint(name)), "");
-  state.log = record::read_csv(folder.log(name));
+TeachingState resumed(const record::RunFolder& folder, const OptionLessons& option) {
+  TeachingState state{untrained_pupil(option.school)};
+  const std::filesystem::path checkpoint = folder.checkpoint(option.name);
+  if (!std::filesystem::exists(checkpoint)) return state;
+  const Npz archive = read_npz(checkpoint);
+  if (!archive.has(kIdentityKey) || text_at(archive, kIdentityKey) != option.identity) return state;
+  state.pupil = load_pupil(archive, "");
+  state.log = record::read_csv(folder.log(option.name));
   state.log.rows.resize(std::min(state.log.rows.size(), static_cast<std::size_t>(state.pupil.rounds)));
   return state;
 }
 
-void write_checkpoint(const record::RunFolder& folder, const std::string& name, const TeachingState& state) {
-  make_folder(folder.log(name).parent_path());
-  make_folder(folder.checkpoint(name).parent_path());
-  write_file_atomically(folder.log(name), record::format_csv(state.log));
+void write_checkpoint(const record::RunFolder& folder, const OptionLessons& option,
+                      const TeachingState& state) {
+  const std::filesystem::path log = folder.log(option.name), checkpoint = folder.checkpoint(option.name);
+  make_folder(log.parent_path());
+  make_folder(checkpoint.parent_path());
+  write_file_atomically(log, record::format_csv(state.log));
   Npz archive;
+  archive.set(kIdentityKey, NpyArray::scalar_text(option.identity));
   save(archive, "", state.pupil);
-  write_npz(folder.checkpoint(name), archive);
+  write_npz(checkpoint, archive);
 }
 
 /// Teaches one policy by all of the plans; continues from the checkpoint in the folder.
@@ -135,8 +143,8 @@ void write_checkpoint(const record::RunFolder& folder, const std::string& name, 
 /// @return none if it was interrupted; the checkpoint then has the finished rounds
 std::optional<Pupil> teach_option(const OptionLessons& option, const record::RunFolder& folder, int threads,
                                   const record::RunContext& context) {
-  const auto& [name, motions, school, task] = option;
-  const int count = static_cast<int>(motions.size());
+  const SchoolConfig& school = option.school;
+  const int count = static_cast<int>(option.motions.size());
   const Teachers teachers = [&](int k) {
     return read_teacher(option.motions[static_cast<std::size_t>(k)], option.task,
                         option.school.follow_plan ? Followed::kPlan : Followed::kReference);
@@ -144,12 +152,12 @@ std::optional<Pupil> teach_option(const OptionLessons& option, const record::Run
   control::PlanControl control;
   control.threads = threads;
   control.should_stop = context.should_stop;
-  TeachingState state = resumed(folder, name, school);
-  context.progress.start(name + " (" + std::to_string(count) + " motions)", state.pupil.rounds, school.rounds,
-                         "rounds");
+  TeachingState state = resumed(folder, option);
+  context.progress.start(option.name + " (" + std::to_string(count) + " motions)", state.pupil.rounds,
+                         school.rounds, "rounds");
   double written = record::steady_seconds();
   while (state.pupil.rounds < school.rounds) {
-    const auto round = teach_round(teachers, count, task, school, control, state.pupil);
+    const auto round = teach_round(teachers, count, option.task, school, control, state.pupil);
     if (round) {
       state.log.rows.push_back({static_cast<double>(round->round), static_cast<double>(round->lessons),
                                 round->put_back, round->loss});
@@ -158,7 +166,7 @@ std::optional<Pupil> teach_option(const OptionLessons& option, const record::Run
     const bool stop = !round || (context.should_stop && context.should_stop());
     const bool last = state.pupil.rounds == school.rounds;
     if (stop || last || record::steady_seconds() - written > kCheckpointSeconds) {
-      write_checkpoint(folder, name, state);
+      write_checkpoint(folder, option, state);
       written = record::steady_seconds();
     }
     if (stop && !last) return {};
@@ -208,8 +216,9 @@ record::RunOutcome teach_options(const TeachConfig& config, const record::RunCon
     const std::string name = "option" + std::to_string(index);
     SchoolConfig school = school_for(config, static_cast<int>(cluster.members.size()));
     school.seed += static_cast<std::uint64_t>(index);
-    const auto pupil = teach_option({name, members(cluster, motions, names), school, task}, folder,
-                                    config.planning.run.threads, context);
+    const OptionLessons lessons = {name, pipeline::identity_of_option(record, cluster.members),
+                                   members(cluster, motions, names), school, task};
+    const auto pupil = teach_option(lessons, folder, config.planning.run.threads, context);
     if (!pupil) {
       context.progress.finish("interrupted; the same command continues");
       return record::RunOutcome::kInterrupted;

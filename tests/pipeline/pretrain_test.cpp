@@ -213,6 +213,17 @@ TEST_F(Pretrain, MoreSamplesGiveTheSameBytesWhereverEarlierRunsStopped) {
   EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
+TEST_F(Pretrain, CheckpointsOfOtherSettingsAreNotContinued) {
+  pretrain_once("run");
+  for (const char* file : {"manifest.json", "options.npz"}) std::filesystem::remove(out("run") / file);
+  for (const char* folder : {"run", "fresh"}) {
+    PretrainConfig config = pretraining(folder);
+    config.training.tracking.reward.pose *= 2.0;
+    run(config);
+  }
+  EXPECT_EQ(run::results_of(out("run")), run::results_of(out("fresh")));
+}
+
 TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
   PretrainConfig config = pretraining("run");
   pretrain_once("run");

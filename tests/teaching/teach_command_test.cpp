@@ -111,6 +111,19 @@ TEST_F(Teach, KeepsAFinishedRunAndRejectsOtherSettings) {
   EXPECT_NE(refusal([&] { run(config); }).find("school_visits"), std::string::npos);
 }
 
+TEST_F(Teach, CheckpointsOfOtherSettingsAreNotContinued) {
+  teach_once("run");
+  for (const char* file : {"manifest.json", "options.npz"}) std::filesystem::remove(out("run") / file);
+  TeachConfig config = teaching("run");
+  config.school.seed += 1;
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  config.out = out("fresh");
+  config.plans = {(out("run") / "plans").string()};
+  config.planning.run.inputs.clear();
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  EXPECT_TRUE(read_file(out("run") / "options.npz") == read_file(out("fresh") / "options.npz"));
+}
+
 TEST_F(Teach, FolderWithoutPlansErrorNamesTheCommand) {
   TeachConfig config = teaching("run");
   config.planning.run.inputs.clear();
