@@ -13,15 +13,39 @@ constexpr const char *kCount = "options.count", *kAbsolute = "options.absolute_a
 
 std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
-/// @throws DataError if the actor's sizes are not those of state and action
+void require_sizes(const Npz& archive, const std::string& key, const nn::Mlp<float>& network, int inputs,
+                   int outputs) {
+  if (network.inputs() != inputs || network.outputs() != outputs)
+    throw DataError(archive.path, key,
+                    std::to_string(inputs) + " inputs and " + std::to_string(outputs) + " outputs",
+                    std::to_string(network.inputs()) + " and " + std::to_string(network.outputs()));
+}
+
+/// @throws DataError if the sizes of a network are not those of poses, code, state, action and value
 void check_shape(const Npz& archive, const std::string& prefix, const Option& option) {
-  const int state =
-      option.encoder ? rl::tracking::kEncodedRest + option.encoder->code_size() : rl::tracking::kStateSize;
-  const nn::Mlp<float>& actor = option.agent.actor;
-  if (actor.inputs() != state || actor.outputs() != kDofs)
-    throw DataError(archive.path, prefix + "agent",
-                    std::to_string(state) + " inputs and " + std::to_string(kDofs) + " outputs",
-                    std::to_string(actor.inputs()) + " and " + std::to_string(actor.outputs()));
+  int state = rl::tracking::kStateSize;
+  if (option.encoder) {
+    const nn::AutoEncoder& coder = *option.encoder;
+    constexpr int kPose = rl::tracking::kPoseFeatures;
+    require_sizes(archive, prefix + "encoder.encoder", coder.encoder, kPose, coder.code_size());
+    require_sizes(archive, prefix + "encoder.decoder", coder.decoder, coder.code_size(), kPose);
+    if (coder.inputs.features() != kPose)
+      throw DataError(archive.path, prefix + "encoder.inputs.mean", std::to_string(kPose) + " numbers",
+                      std::to_string(coder.inputs.features()));
+    state = rl::tracking::kEncodedRest + coder.code_size();
+  }
+  require_sizes(archive, prefix + "agent.actor", option.agent.actor, state, kDofs);
+  require_sizes(archive, prefix + "agent.critic", option.agent.critic, state, 1);
+}
+
+/// @throws DataError if the option observes a state of another size than the first one of its set
+void check_state_size(const Npz& archive, const std::string& prefix, const Option& first,
+                      const Option& option) {
+  const int expected = first.agent.actor.inputs(), found = option.agent.actor.inputs();
+  if (found != expected)
+    throw DataError(archive.path, prefix + "agent.actor.sizes",
+                    std::to_string(expected) + " inputs, as those of the first option",
+                    std::to_string(found));
 }
 
 }  // namespace
@@ -100,6 +124,7 @@ OptionSet options_from(const Npz& archive) {
     trained.motions = static_cast<int>(whole("motions", std::numeric_limits<int>::max()));
     trained.samples = whole("samples", std::numeric_limits<std::int64_t>::max());
     set.options.push_back(std::move(trained));
+    check_state_size(archive, prefix, set.options.front().option, set.options.back().option);
   }
   return set;
 }

@@ -89,6 +89,35 @@ TEST(OptionSet, RejectsOtherFilesAndMismatchedStateSizes) {
   EXPECT_THROW(read_options(folder.path / "wrong.npz"), DataError);
 }
 
+TEST(OptionSet, RejectsNetworksOfOtherSizes) {
+  const TemporaryFolder folder;
+  Random random(1);
+  const auto network = [&](int inputs, int outputs) {
+    return nn::make_mlp<float>({inputs, 4, outputs}, 1.0F, random);
+  };
+  const auto is_rejected = [&](const auto& change) {
+    OptionSet wrong = some_set();
+    change(wrong.options[1].option);
+    write_options(folder.path / "wrong.npz", wrong);
+    try {
+      read_options(folder.path / "wrong.npz");
+    } catch (const DataError&) {
+      return true;
+    }
+    return false;
+  };
+  const int pose = rl::tracking::kPoseFeatures, state = rl::tracking::kEncodedRest + 8;
+  EXPECT_FALSE(is_rejected([](Option&) {}));
+  EXPECT_TRUE(is_rejected([&](Option& option) { option.encoder->encoder = network(pose - 1, 8); }));
+  EXPECT_TRUE(is_rejected([&](Option& option) { option.encoder->decoder = network(7, pose); }));
+  EXPECT_TRUE(is_rejected([&](Option& option) { option.encoder->decoder = network(8, pose + 1); }));
+  EXPECT_TRUE(is_rejected([&](Option& option) { option.encoder->inputs = nn::make_normaliser<float>(3); }));
+  EXPECT_TRUE(is_rejected([&](Option& option) { option.agent.critic = network(state, 2); }));
+  EXPECT_TRUE(is_rejected([&](Option& option) {
+    option = constant_option(rl::tracking::kStateSize, 0.1F);  // the first one sees an encoded state
+  }));
+}
+
 TEST(OptionSet, RejectsInvalidCountsAndCentres) {
   const TemporaryFolder folder;
   write_options(folder.path / "options.npz", some_set());
