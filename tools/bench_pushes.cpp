@@ -35,6 +35,7 @@ control::PushResult pushed_policy(const record::RunFolder& run, const std::strin
   const files::StoredPolicy policy = files::read_policy(run.policy(name));
   rl::tracking::TrackingConfig task;
   task.simulation = policy.simulation;
+  task.actions = policy.actions;
   return teaching::test_pushes(rl::tracking::make_tracking_clip(policy.motion, task), task, policy.agent,
                                test);
 }

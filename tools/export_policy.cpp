@@ -102,7 +102,9 @@ void export_options(const AskedOptions& asked, const Character& body,
                     std::vector<policy_export::ExportedPolicy>& exported) {
   const auto set = pipeline::options::read_options(asked.file);
   const std::string file = asked.file.string();
-  if (const rl::tracking::ActionSettings exported_actions; set->actions != exported_actions)
+  rl::tracking::ActionSettings exported_actions;
+  exported_actions.max_action = set->actions.max_action;
+  if (set->actions != exported_actions)
     throw DataError(file, "",
                     "policies trained with " + pipeline::options::actions_in_words(exported_actions),
                     pipeline::options::actions_in_words(set->actions));
@@ -113,9 +115,10 @@ void export_options(const AskedOptions& asked, const Character& body,
   for (int k = asked.number.value_or(0); k < (asked.number ? *asked.number + 1 : count); ++k) {
     const pipeline::options::Option& option = set->options[k].option;
     try {
-      exported.push_back(policy_export::export_policy(
-          policy_export::standing_policy("option" + std::to_string(k), option.agent, body), false,
-          option.encoder));
+      files::StoredPolicy standing =
+          policy_export::standing_policy("option" + std::to_string(k), option.agent, body);
+      standing.actions = set->actions;
+      exported.push_back(policy_export::export_policy(standing, false, option.encoder));
     } catch (const std::invalid_argument& error) {
       throw DataError(file, "option" + std::to_string(k), "an option that can be exported", error.what());
     }

@@ -1,5 +1,8 @@
 #include "files/policy_file.h"
 
+#include <stdexcept>
+
+#include "core/setting.h"
 #include "files/archive_members.h"
 #include "files/simulation_settings.h"
 #include "motion/clip_file.h"
@@ -10,6 +13,25 @@ namespace {
 constexpr const char* kAgentPrefix = "policy.";
 constexpr const char* kStatePrefix = "state_";
 
+/// Adds the settings of the actions that are not the default.
+void add_actions(const rl::tracking::ActionSettings& actions, Npz& npz) {
+  const NamedValues usual = settings_of(rl::tracking::ActionSettings{}), own = settings_of(actions);
+  for (std::size_t k = 0; k < own.size(); ++k)
+    if (own[k].second != usual[k].second) npz.set(own[k].first, NpyArray::from_double({1}, &own[k].second));
+}
+
+rl::tracking::ActionSettings read_actions(const Npz& npz) {
+  rl::tracking::ActionSettings actions;
+  try {
+    for (const auto& [name, usual] : settings_of(actions))
+      if (npz.has(name)) apply_setting(actions, name, read_number(npz, name));
+    require_ranges(actions);
+  } catch (const std::invalid_argument& error) {
+    throw DataError(npz.path, "", "the settings of actions", error.what());
+  }
+  return actions;
+}
+
 }  // namespace
 
 void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored) {
@@ -17,6 +39,7 @@ void write_policy(const std::filesystem::path& path, const motion::Clip& input, 
   add_states(kStatePrefix, stored.states, Precision::kFloat32, npz);
   for (const auto& [name, number] : simulation_numbers(stored.simulation))
     npz.set(name, NpyArray::from_double({1}, &number));
+  add_actions(stored.actions, npz);
   rl::save(npz, kAgentPrefix, stored.agent);
   write_npz(path, npz);
 }
@@ -28,6 +51,7 @@ StoredPolicy policy_from(const Npz& npz) {
   StoredPolicy stored;
   stored.states = read_states(npz, kStatePrefix);
   stored.simulation = read_simulation(npz);
+  stored.actions = read_actions(npz);
   motion::Reference body;
   body.name = clip.name;
   body.fps = clip.fps;

@@ -19,6 +19,7 @@ struct StoredPolicy {
   motion::Reference motion;              ///< that the policy follows: name, rate, body
   List<physics::State<double>> states;   ///< [frames] of that motion, in the simulator's numbers
   physics::SimulationConfig simulation;  ///< in which the policy acts
+  rl::tracking::ActionSettings actions;  ///< what its actions mean
   rl::Agent agent;
 };
 

@@ -44,6 +44,7 @@ State disturbed(State state, Random& random) {
 nn::Matrix<float> observations_of(const files::StoredPolicy& policy) {
   rl::tracking::TrackingConfig task;
   task.simulation = policy.simulation;
+  task.actions = policy.actions;
   const auto clip = rl::tracking::make_tracking_clip(policy.motion, task);
   const auto act = rl::tracking::mean_action({policy.agent});
   Random random(1, {kNoiseStream});
@@ -69,6 +70,10 @@ ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,
                              const std::optional<nn::AutoEncoder>& coder) {
   if (!policy.motion.scene.flat())
     throw std::invalid_argument("its motion is on a scene, and exported policies know the flat floor alone");
+  rl::tracking::ActionSettings exported;
+  exported.max_action = policy.actions.max_action;
+  if (policy.actions != exported)
+    throw std::invalid_argument("its actions have other settings than those of exported policies");
   ExportedPolicy out;
   out.meant = policy;
   out.in_8_bits = in_8_bits;
@@ -84,8 +89,7 @@ ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,
         throw std::invalid_argument("its encoder has a layer of more than " + std::to_string(kStateCount) +
                                     " units");
   }
-  const rl::tracking::TrackingConfig task;
-  out.max_action = static_cast<float>(task.max_action);
+  out.max_action = static_cast<float>(policy.actions.max_action);
   out.motion = fit_spline(policy.states, policy.motion.fps, in_8_bits ? kSpacingIn8Bits : kSpacing);
   out.meant.states = states_of(out.motion);
   out.meant.motion = rl::tracking::reference_of_states(policy.motion, out.meant.states);

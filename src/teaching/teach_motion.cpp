@@ -117,7 +117,8 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   if (taught.timed_out)
     taught.note += (taught.note.empty() ? "" : "; ") + std::string("--limit-seconds stopped its training");
   taught.alone = seen_from(reference, task, std::move(taught.alone));
-  taught.policy = files::StoredPolicy{teacher->clip->reference, plan.states, task.simulation, *student};
+  taught.policy =
+      files::StoredPolicy{teacher->clip->reference, plan.states, task.simulation, task.actions, *student};
   taught.seconds = record::steady_seconds() - watch.started;
   return taught;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/npz/npz.h"
+#include "core/setting.h"
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
 #include "motion/prepare/prepare.h"
@@ -38,6 +39,7 @@ struct PolicyFile : testing::Test {
   static PerBody<Vector3d> end_of(const StoredPolicy& policy) {
     rl::tracking::TrackingConfig task;
     task.simulation = policy.simulation;
+    task.actions = policy.actions;
     return rl::tracking::roll_out(rl::tracking::make_tracking_clip(policy.motion, task), task,
                                   rl::tracking::mean_action({policy.agent}))
         .poses.back()
@@ -54,6 +56,24 @@ TEST_F(PolicyFile, RoundTripGivesTheSameActions) {
   EXPECT_EQ(read.simulation.friction, 0.7);
   EXPECT_EQ(read.motion.fps, stored.motion.fps);
   EXPECT_EQ(end_of(read), end_of(stored));
+}
+
+TEST_F(PolicyFile, HasTheSettingsOfActionsThatAreNotTheDefault) {
+  const NamedValues usual = settings_of(stored.actions);
+  for (const auto& [name, value] : usual) EXPECT_FALSE(read_npz(file).has(name)) << name;
+  stored.actions.max_action = 0.01;
+  stored.actions.ramp = false;
+  write_policy(file, clip, stored);
+  const StoredPolicy read = read_policy(file);
+  EXPECT_EQ(read.actions, stored.actions);
+  EXPECT_FALSE(read_npz(file).has("residual_actions"));
+  EXPECT_EQ(end_of(read), end_of(stored));
+  stored.actions = {};
+  EXPECT_NE(end_of(read), end_of(stored));
+  Npz damaged = read_npz(file);
+  const double impossible = -1.0;
+  damaged.set("max_action", NpyArray::from_double({1}, &impossible));
+  EXPECT_THROW(policy_from(damaged), DataError);
 }
 
 TEST_F(PolicyFile, KnowsTheSceneItActsOn) {

@@ -47,7 +47,7 @@ TEST(PolicyArrays, HoldTheMotionTheBodyAndTheRecords) {
   EXPECT_EQ(npz.at("test_observations").shape, (std::vector<std::size_t>{4, 570}));
   EXPECT_EQ(npz.at("test_targets").shape, (std::vector<std::size_t>{4, 22, 4}));
   EXPECT_EQ(number_at(npz, "physics_rate"), 240.0);
-  EXPECT_EQ(number_at(npz, "max_action"), static_cast<float>(rl::tracking::TrackingConfig{}.max_action));
+  EXPECT_EQ(number_at(npz, "max_action"), static_cast<float>(rl::tracking::ActionSettings{}.max_action));
 }
 
 }  // namespace

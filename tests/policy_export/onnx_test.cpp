@@ -134,6 +134,20 @@ TEST(PolicyOnnx, ComputesTheActionsThatAreRecorded) {
   }
 }
 
+TEST(PolicyOnnx, ClipsToTheBoundOfActionsOfThePolicy) {
+  files::StoredPolicy policy = small_policy();
+  policy.actions.max_action = 0.005;
+  const ExportedPolicy exported = export_policy(policy, false);
+  const std::vector<double> action = onnx_action(to_onnx(exported), exported.records[0].observation);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < action.size(); ++k) {
+    const double unbounded = exported.records[0].action[k];
+    EXPECT_NEAR(action[k], std::clamp(unbounded, -0.005, 0.005), 1e-5);
+    largest = std::max(largest, std::abs(unbounded));
+  }
+  EXPECT_GT(largest, 0.005);
+}
+
 TEST(PolicyOnnx, StaysUnderItsSizeLimits) {
   EXPECT_LT(to_onnx(exported_in_float()).size(), 400000U);
   EXPECT_LT(to_onnx(exported_in_8_bits()).size(), 110000U);

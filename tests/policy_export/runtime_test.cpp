@@ -44,7 +44,9 @@ State from_physics(const physics::State<double>& state) {
 /// simulated.
 Largest differences(const ExportedPolicy& exported) {
   using rl::tracking::TrackingPack;
-  TrackingPack pack(rl::tracking::make_tracking_clip(exported.meant.motion, {}), {});
+  rl::tracking::TrackingConfig task;
+  task.actions = exported.meant.actions;
+  TrackingPack pack(rl::tracking::make_tracking_clip(exported.meant.motion, task), task);
   const auto act = rl::tracking::mean_action({exported.meant.agent});
   physics::Data<TrackingPack::P> scratch;
   Largest largest;
@@ -145,6 +147,24 @@ TEST(PolicyRuntime, RotationsAreThoseOfTheCore) {
     EXPECT_NEAR(q.z, expected.z(), 4e-16);
     const double y = random.uniform(), x = random.uniform();
     EXPECT_NEAR(arc(y, x), std::atan2(y, x), 1e-15);
+  }
+}
+
+TEST(PolicyRuntime, KeepsTheBoundOfActionsOfThePolicy) {
+  files::StoredPolicy policy = small_policy();
+  policy.actions.max_action = 0.005;
+  const Largest largest = differences(export_policy(policy, false));
+  EXPECT_LE(largest.observation, kRounding);
+  EXPECT_LE(largest.target, kRounding);
+}
+
+TEST(PolicyRuntime, PoliciesWithOtherActionsAreRefused) {
+  for (const auto& change :
+       {+[](rl::tracking::ActionSettings& actions) { actions.ramp = false; },
+        +[](rl::tracking::ActionSettings& actions) { actions.mode = rl::tracking::ActionMode::kAbsolute; }}) {
+    files::StoredPolicy policy = small_policy();
+    change(policy.actions);
+    EXPECT_THROW(export_policy(policy, false), std::invalid_argument);
   }
 }
 

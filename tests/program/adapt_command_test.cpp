@@ -382,6 +382,7 @@ TEST_F(Adapt, StoredPolicyReproducesTheManifestsNumbers) {
   const files::StoredPolicy policy = files::read_policy(out("run") / "policies" / "sway.npz");
   rl::tracking::TrackingConfig task;
   task.simulation = policy.simulation;
+  task.actions = policy.actions;
   const judge::Scores scores = judge::score_simulated(
       policy.motion, rl::tracking::roll_out(rl::tracking::make_tracking_clip(policy.motion, task), task,
                                             rl::tracking::mean_action({policy.agent})));

@@ -3,13 +3,15 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "record/run_folder.h"
 
 namespace mimicx::pipeline::options {
 namespace {
 
 constexpr const char *kCount = "options.count", *kAbsolute = "options.absolute_actions",
-                     *kNoFeedForward = "options.no_feed_forward", *kNoRamp = "options.no_ramp";
+                     *kNoFeedForward = "options.no_feed_forward", *kNoRamp = "options.no_ramp",
+                     *kMaxAction = "options.max_action";
 
 std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
@@ -71,6 +73,8 @@ void write_options(const std::filesystem::path& path, const OptionSet& set) {
   mark(kAbsolute, set.actions.mode == rl::tracking::ActionMode::kAbsolute);
   mark(kNoFeedForward, !set.actions.velocity_feed_forward);
   mark(kNoRamp, !set.actions.ramp);
+  if (set.actions.max_action != rl::tracking::ActionSettings{}.max_action)
+    archive.set(kMaxAction, NpyArray::scalar(set.actions.max_action));
   for (int k = 0; k < set.options.count(); ++k) {
     const TrainedOption& trained = set.options[k];
     const std::string prefix = prefix_of(k);
@@ -101,6 +105,9 @@ OptionSet options_from(const Npz& archive) {
   if (marked(kAbsolute)) set.actions.mode = rl::tracking::ActionMode::kAbsolute;
   set.actions.velocity_feed_forward = !marked(kNoFeedForward);
   set.actions.ramp = !marked(kNoRamp);
+  if (archive.has(kMaxAction)) set.actions.max_action = number_at(archive, kMaxAction);
+  if (!(set.actions.max_action >= 0.0 && set.actions.max_action <= 1e9))
+    throw DataError(archive.path, kMaxAction, "radians", text_of(set.actions.max_action));
   for (int k = 0; k < static_cast<int>(count); ++k) {
     const std::string prefix = prefix_of(k);
     const auto whole = [&](const char* key, std::int64_t most) {
@@ -133,7 +140,10 @@ std::string actions_in_words(const rl::tracking::ActionSettings& actions) {
   return std::string("residual_actions=") +
          (actions.mode == rl::tracking::ActionMode::kResidual ? "1" : "0") +
          ", velocity_feed_forward=" + (actions.velocity_feed_forward ? "1" : "0") +
-         ", target_ramp=" + (actions.ramp ? "1" : "0");
+         ", target_ramp=" + (actions.ramp ? "1" : "0") +
+         (actions.max_action == rl::tracking::ActionSettings{}.max_action
+              ? ""
+              : ", max_action=" + text_of(actions.max_action));
 }
 
 }  // namespace mimicx::pipeline::options

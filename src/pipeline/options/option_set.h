@@ -3,7 +3,8 @@
 /// `mimicx pretrain` writes `options.npz`; `mimicx adapt` reads it. Weights are 32-bit floats; optimiser
 /// states are not part of it. Members: options.count, optionK.agent.*, optionK.encoder.*,
 /// optionK.description, optionK.centre (features, SI units), optionK.motions, optionK.samples; and
-/// options.absolute_actions, options.no_feed_forward and options.no_ramp, 1, each only if it is so.
+/// options.absolute_actions, options.no_feed_forward and options.no_ramp, 1, each only if it is so; and
+/// options.max_action, rad, only if it is not the default.
 #pragma once
 
 #include <filesystem>
@@ -47,7 +48,7 @@ void write_options(const std::filesystem::path& path, const OptionSet& set);
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path);
 /// The same from an archive; without a checksum.
 OptionSet options_from(const Npz& archive);
-/// "residual_actions=1, velocity_feed_forward=1, target_ramp=1".
+/// "residual_actions=1, velocity_feed_forward=1, target_ramp=1"; max_action only if it is not the default.
 std::string actions_in_words(const rl::tracking::ActionSettings& actions);
 
 }  // namespace mimicx::pipeline::options

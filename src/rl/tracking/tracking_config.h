@@ -20,14 +20,23 @@ struct ActionSettings {
   ActionMode mode = ActionMode::kResidual;
   bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity, not towards 0
   bool ramp = true;  ///< the target moves from the last action to this one during the frame, not at its start
+  double max_action = std::numbers::pi;  ///< each entry is clamped to ± this, rad; π allows every rotation
 
   bool operator==(const ActionSettings&) const = default;
 };
 
+/// core/setting.h.
+void visit_settings(ActionSettings& a, const auto& visit) {
+  visit("residual_actions", a.mode, 0, 1, "1: actions are added to the reference; 0: absolute");
+  visit("velocity_feed_forward", a.velocity_feed_forward, 0, 1,
+        "1: PD damps towards the reference's velocity");
+  visit("target_ramp", a.ramp, 0, 1, "1: PD's target moves to the action during the frame; 0: at its start");
+  visit("max_action", a.max_action, 0, 1e9, "bound of each entry of an action, rad");
+}
+
 /// Defaults: docs/method.md §12 and docs/experiments.md.
 struct TrackingConfig {
   ActionSettings actions;
-  double max_action = std::numbers::pi;  ///< each entry is clamped to ± this, rad; π allows every rotation
   RewardWeights reward;
   physics::SimulationConfig simulation;
   double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m
@@ -39,12 +48,7 @@ struct TrackingConfig {
 
 /// core/setting.h; those of the simulation apart (src/files/simulation_settings.h).
 void visit_settings(TrackingConfig& t, const auto& visit) {
-  visit("residual_actions", t.actions.mode, 0, 1, "1: actions are added to the reference; 0: absolute");
-  visit("velocity_feed_forward", t.actions.velocity_feed_forward, 0, 1,
-        "1: PD damps towards the reference's velocity");
-  visit("target_ramp", t.actions.ramp, 0, 1,
-        "1: PD's target moves to the action during the frame; 0: at its start");
-  visit("max_action", t.max_action, 0, 1e9, "bound of each entry of an action, rad");
+  visit_settings(t.actions, visit);
   visit("reward_root_position", t.reward.root_position, 0, 1e9, "sharpness for the pelvis' position, 1/m²");
   visit("reward_root_rotation", t.reward.root_rotation, 0, 1e9, "sharpness for the pelvis' rotation, 1/rad²");
   visit("reward_pose", t.reward.pose, 0, 1e9, "sharpness for joint rotations, 1/rad²");

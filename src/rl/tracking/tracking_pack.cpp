@@ -97,7 +97,7 @@ void TrackingPack::act(int lane, const float* action) {
   const bool residual = config_.actions.mode == ActionMode::kResidual;
   for (int body = 1; body < kBodies; ++body) {
     const Vector3d rotation =
-        physics::action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
+        physics::action_rotation(body, config_.actions.max_action, [&](int dof) { return action[dof]; });
     physics::set_lane(to_.q[body], lane,
                       residual ? physics::residual_target(next.q[body], rotation) : exp_map(rotation));
     physics::set_lane(to_.omega[body], lane,

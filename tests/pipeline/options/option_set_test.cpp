@@ -69,6 +69,21 @@ TEST(OptionSet, OnlyActionsThatAreNotTheDefaultAreNamedInTheFile) {
       }
 }
 
+TEST(OptionSet, BoundOfActionsIsInTheFileIfItIsNotTheDefault) {
+  const TemporaryFolder folder;
+  OptionSet set = some_set();
+  write_options(folder.path / "options.npz", set);
+  EXPECT_FALSE(read_npz(folder.path / "options.npz").has("options.max_action"));
+  set.actions.max_action = 0.5;
+  write_options(folder.path / "options.npz", set);
+  EXPECT_EQ(read_options(folder.path)->actions, set.actions);
+  EXPECT_NE(set.actions, rl::tracking::ActionSettings{}) << "adapt refuses it";
+  EXPECT_NE(actions_in_words(set.actions).find(", max_action=0.5"), std::string::npos);
+  Npz damaged = read_npz(folder.path / "options.npz");
+  damaged.set("options.max_action", NpyArray::scalar(std::nan("")));
+  EXPECT_THROW(options_from(damaged), DataError);
+}
+
 TEST(OptionSet, SetsAreNumberedConsecutivelyAndNamedByChecksum) {
   const TemporaryFolder folder;
   write_options(folder.path / "options.npz", some_set());

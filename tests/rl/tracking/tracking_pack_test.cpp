@@ -71,7 +71,7 @@ TEST(TrackingPack, WithoutRampAndFeedForwardTheTargetIsTheActionInEveryStep) {
       last = 0.0;
       for (int body = 1; body < kBodies; ++body) {
         const Vector3d rotation =
-            physics::action_rotation(body, config.max_action, [&](int dof) { return action[dof]; });
+            physics::action_rotation(body, config.actions.max_action, [&](int dof) { return action[dof]; });
         last = std::max(last, exp_map(rotation).angularDistance(physics::lane_of(target.q[body], 0)));
         EXPECT_EQ(physics::lane_of(target.omega[body], 0), Vector3d::Zero()) << kBodyNames[body];
       }
@@ -106,7 +106,7 @@ TEST(TrackingPack, AbsoluteActionsReachEveryPoseOfTheJointRanges) {
   for (int body = 1; body < kBodies; ++body)
     for (const Vector3d& end : ends_of_range(character.joint[body], body)) {
       const int dof = first_dof(body);
-      const Vector3d reached = physics::action_rotation(body, TrackingConfig{}.max_action, [&](int k) {
+      const Vector3d reached = physics::action_rotation(body, ActionSettings{}.max_action, [&](int k) {
         return is_hinge(body) ? end.dot(hinge_axis(body)) : end[k - dof];
       });
       EXPECT_LT((reached - end).norm(), 1e-12) << kBodyNames[body] << ": " << end.transpose();
