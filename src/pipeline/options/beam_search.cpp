@@ -22,6 +22,7 @@ struct Path {
   std::vector<int> breaks;  ///< as in `Found`
   double value = 0.0;       ///< R of Eq. 4 so far
   bool fell = false;
+  int fell_at = 0;  ///< frame of its last fall
   int character = 0;
 };
 
@@ -57,17 +58,21 @@ List<Path> continued(const Search& search, const List<Path>& beam, int frames) {
   return paths;
 }
 
-/// Lets the last option of every path act. After a fall the reward is 0.
+/// Lets the last option of every path act from a frame on. After a fall the reward is 0.
 /// @return false if it was stopped
-bool act(const Search& search, List<Path>& paths, Characters& characters, int frames) {
+bool act(const Search& search, List<Path>& paths, Characters& characters, int first, int frames) {
   List<int> options;
   for (const Path& path : paths) options.push_back(path.options.back());
   for (int i = 0; i < frames; ++i) {
     if (search.should_stop && search.should_stop()) return false;
     characters.advance(search.policy, options);
     for (Path& path : paths) {
-      path.fell = path.fell || characters.fell(path.character, search.tracking.terminate_distance);
-      if (!path.fell) path.value += characters.reward(path.character);
+      if (path.fell) continue;
+      path.fell = characters.fell(path.character, search.tracking.terminate_distance);
+      if (path.fell)
+        path.fell_at = first + i + 1;
+      else
+        path.value += characters.reward(path.character);
     }
   }
   return true;
@@ -88,7 +93,7 @@ std::optional<Beam> expand(const Search& search, const Beam& beam, int stretch) 
   const int frames = std::min(stretch, search.clip->size() - 1 - beam.frame);
   List<Path> paths = continued(search, beam.paths, frames);
   Characters characters = characters_of(search, paths, beam.characters);
-  if (!act(search, paths, characters, frames)) return std::nullopt;
+  if (!act(search, paths, characters, beam.frame, frames)) return std::nullopt;
   std::stable_sort(paths.begin(), paths.end(), better);
   return Beam{beam.frame + frames, std::move(paths), std::move(characters)};
 }
@@ -101,11 +106,13 @@ void prune(const Search& search, Beam& beam, std::int64_t width) {
   beam.characters = characters_of(search, paths, beam.characters);
 }
 
-/// Where all paths have fallen, restarts the best one from the reference.
+/// Where all paths have fallen, restarts the best one from the reference. The break is at the latest fall.
 void restart(Beam& beam) {
+  int latest = 0;
+  for (const Path& path : beam.paths) latest = std::max(latest, path.fell_at);
   beam.paths.resize(1);
   Path& path = beam.paths.front();
-  path.breaks.push_back(beam.frame);
+  path.breaks.push_back(latest);
   path.fell = false;
   beam.characters.reset(path.character, beam.frame);
 }

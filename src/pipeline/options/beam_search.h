@@ -31,7 +31,7 @@ struct SearchConfig {
 struct Found {
   List<int> options;        ///< [frames − 1] the option that acts towards the next frame
   double value = 0.0;       ///< R of Eq. 4
-  std::vector<int> breaks;  ///< frames at which every path had fallen
+  std::vector<int> breaks;  ///< frames at which the last of all paths fell
   int searched = 0;         ///< frames: all, or those before it was stopped; the last option acts in the rest
 };
 
