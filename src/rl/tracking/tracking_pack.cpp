@@ -179,8 +179,8 @@ void TrackingPack::load(const std::vector<float>& values) {
   physics::update_kinematics(clip_->model, state_, d);
   for (int lane = 0; lane < physics::kLanes; ++lane) {
     const float frame = values[k++];
-    if (!(frame >= 0.0f && frame < static_cast<float>(clip_->poses.count())))
-      throw std::invalid_argument("frame " + text_of(frame) + " of " + std::to_string(clip_->poses.count()));
+    if (!(frame >= 0.0f && frame < static_cast<float>(clip_->size())))
+      throw std::invalid_argument("frame " + text_of(frame) + " of " + std::to_string(clip_->size()));
     frames_[lane] = static_cast<int>(frame);
     fresh_[lane] = values[k++] != 0.0f;
     if (fresh_[lane])

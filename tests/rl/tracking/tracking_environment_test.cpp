@@ -76,7 +76,7 @@ TEST(TrackingEnvironment, RejectsFramesOutsideTheClip) {
   const std::string key = "e.group0.pack0";
   const std::vector<double> sound = archive.at(key).to_double();
   const std::size_t frame = sound.size() - 2;  // that of the last lane
-  const int frames = clip->poses.count();
+  const int frames = clip->size();             // the pose behind them, at rest, is a target alone
   // As a float, the number next to `frames` is `frames` itself.
   for (const double bad : {-1.0, 1.0 * frames, frames - 1e-9, 1e300, std::nan("")}) {
     std::vector<double> values = sound;
