@@ -40,30 +40,8 @@ SequenceEnding ending_of(const std::string& name) {
   return static_cast<SequenceEnding>(found - kEndings.begin());
 }
 
-}  // namespace
-
-std::string in_words(const Worsening& worsening) {
-  std::string text = worsening.measure + " " + worsening.numbers + ", most at frames";
-  const char* between = " ";
-  for (const auto& [first, last] : worsening.frames) {
-    text += between + std::to_string(first) + (last > first ? "-" + std::to_string(last) : "");
-    between = ", ";
-  }
-  return text + ": " + worsening.why;
-}
-
-std::string parts_in_words(const SequenceEntry& entry) {
-  std::string text;
-  int k = 0;
-  for (const auto& [first, last] : entry.parts) {
-    text += k == 0 ? "followed in part, as motions of their own: frames " : ", frames ";
-    text += std::to_string(first) + "-" + std::to_string(last) + " in " +
-            RunFolder::motion_name(RunFolder::part_name(entry.name, ++k), true);
-  }
-  return text;
-}
-
-Json to_json(const SequenceEntry& e) {
+/// The members that every entry has.
+Json members_of(const SequenceEntry& e) {
   return {{"name", to_utf8(e.name)},
           {"input", to_utf8(e.input)},
           {"input_checksum", e.input_checksum},
@@ -96,6 +74,42 @@ Json to_json(const SequenceEntry& e) {
           {"files", checksums_json(e.files)}};
 }
 
+}  // namespace
+
+std::string in_words(const Worsening& worsening) {
+  std::string text = worsening.measure + " " + worsening.numbers + ", most at frames";
+  const char* between = " ";
+  for (const auto& [first, last] : worsening.frames) {
+    text += between + std::to_string(first) + (last > first ? "-" + std::to_string(last) : "");
+    between = ", ";
+  }
+  return text + ": " + worsening.why;
+}
+
+bool SequenceEntry::spent_its_budget() const {
+  if (samples == 0 || training_ending != SequenceEnding::kNone) return false;
+  const bool beside_a_plan = ending == SequenceEnding::kLost || ending == SequenceEnding::kFollowed;
+  return ending == SequenceEnding::kBudget || (beside_a_plan && !ok);
+}
+
+std::string parts_in_words(const SequenceEntry& entry) {
+  std::string text;
+  int k = 0;
+  for (const auto& [first, last] : entry.parts) {
+    text += k == 0 ? "followed in part, as motions of their own: frames " : ", frames ";
+    text += std::to_string(first) + "-" + std::to_string(last) + " in " +
+            RunFolder::motion_name(RunFolder::part_name(entry.name, ++k), true);
+  }
+  return text;
+}
+
+Json to_json(const SequenceEntry& e) {
+  Json json = members_of(e);
+  if (e.training_ending != SequenceEnding::kNone)
+    json["training_ending"] = kEndings[static_cast<int>(e.training_ending)];
+  return json;
+}
+
 SequenceEntry entry_of(const Json& json) {
   SequenceEntry e;
   e.name = from_utf8(json.at("name").get<std::string>());
@@ -107,6 +121,8 @@ SequenceEntry entry_of(const Json& json) {
   if (json.contains("parts")) e.parts = json.at("parts").get<std::vector<std::array<int, 2>>>();  // as below
   e.method = json.value("method", "").get<std::string>();
   e.ending = ending_of(json.at("ending").get<std::string>());
+  if (json.contains("training_ending"))
+    e.training_ending = ending_of(json.at("training_ending").get<std::string>());
   e.frames = json.at("frames");
   e.fps = json.at("fps");
   e.seed = json.at("seed");

@@ -72,9 +72,15 @@ struct SequenceEntry {
   NamedValues feasibility;
   std::vector<std::string> decisions;  ///< what reading the input decided
   std::vector<std::string> notes;
+  /// How a training beside a plan that was written ended, if it ended before its budget; else kNone.
+  SequenceEnding training_ending = SequenceEnding::kNone;
 
   /// Whether the same command keeps this result instead of repeating the work.
   bool finished() const { return !output.empty() && ending != SequenceEnding::kLimitSeconds; }
+
+  /// Whether a larger budget continues its training: all samples were spent. A training that reached its
+  /// threshold or stalled is finished, whatever the budget.
+  bool spent_its_budget() const;
 };
 
 /// "followed in part, as motions of their own: frames 0-60 in motions/walk.part1.npz, …"; empty without parts

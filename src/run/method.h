@@ -68,6 +68,8 @@ struct SimulatedSequence {
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
   record::SequenceEnding ending = record::SequenceEnding::kNone;
   std::int64_t samples = 0;
+  /// How a training ended before its budget, if the result is a plan; else kNone.
+  record::SequenceEnding training_ending = record::SequenceEnding::kNone;
   std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none
   rl::tracking::TrackingRollout after;                  ///< the result
   std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option of all sets}; else empty

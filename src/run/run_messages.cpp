@@ -71,6 +71,9 @@ std::string ended_by(const record::SequenceEntry& entry) {
       return "the training stopped improving: another --seed starts a new one, in another folder";
     case record::SequenceEnding::kLost:
       if (entry.samples == 0) return "no policy was trained: mimicx adapt trains policies where a plan fails";
+      if (!entry.spent_its_budget())
+        return "neither a plan nor policies could follow, and more samples do not continue this training: "
+               "another --seed starts a new one, in another folder";
       return "neither a plan nor policies could follow: with a larger --budget-samples than " +
              std::to_string(entry.samples) + " the same command continues the training";
     default:

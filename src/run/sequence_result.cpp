@@ -90,6 +90,7 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
   append(entry.feasibility, judge::assistance_values(made.assistance, reference.character.total_mass()));
   entry.samples = made.samples;
   entry.ending = made.ending;
+  entry.training_ending = made.training_ending;
   entry.arrangement = made.arrangement;
   entry.notes.insert(entry.notes.end(), made.notes.begin(), made.notes.end());
   if (made.before) {

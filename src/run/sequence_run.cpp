@@ -83,8 +83,7 @@ void restore_files(const Worker& worker, const record::SequenceEntry& entry,
 
 /// Whether a training spent its budget and now has a larger one.
 bool goes_on(const RunState& run, const record::SequenceEntry& there) {
-  return there.samples > 0 && there.samples < run.method.samples &&
-         (there.ending == record::SequenceEnding::kBudget || !there.ok);
+  return there.spent_its_budget() && there.samples < run.method.samples;
 }
 
 /// Fills in what is known before any work on an input. @param there  its earlier result, or null

@@ -136,6 +136,36 @@ TEST_F(Imitate, KeepsFinishedMotions) {
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz"), written);
 }
 
+// Their samples are fewer than the budget, but a larger one would not continue them, and this one is no
+// larger.
+TEST_F(Imitate, KeepsFailedMotionsWhoseTrainingEndedBeforeItsBudget) {
+  const ImitateConfig config = small_run(out("run"), {stand});
+  run(config);
+  record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
+  const auto written = std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz");
+  using record::SequenceEnding;
+  for (const auto& [ending, of_training] : {std::pair{SequenceEnding::kStall, SequenceEnding::kNone},
+                                            std::pair{SequenceEnding::kThreshold, SequenceEnding::kNone},
+                                            std::pair{SequenceEnding::kLost, SequenceEnding::kStall}}) {
+    record::SequenceEntry& entry = manifest.sequences.at(0);
+    entry.ok = false;
+    entry.samples = 64 * 8;
+    entry.ending = ending;
+    entry.training_ending = of_training;
+    const std::string text = record::format_manifest(manifest);
+    write_file_atomically(out("run") / "manifest.json", text);
+    for (const int times : {1, 2}) {
+      ImitateConfig again = config;
+      again.training.samples *= times;
+      manifest.samples = again.training.samples;
+      run(again);
+      EXPECT_EQ(read_file(out("run") / "manifest.json"), record::format_manifest(manifest));
+    }
+    manifest.samples = config.training.samples;
+  }
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz"), written);
+}
+
 TEST_F(Imitate, AddsSubstepsToAFinishedMotionWithoutTraining) {
   ImitateConfig config = small_run(out("run"), {stand});
   run(config);
