@@ -96,7 +96,8 @@ void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& envir
   const Best& best = state.best;
   for (const auto* file : {&files.log, &files.falls, &files.checkpoint}) make_folder(file->parent_path());
   write_file_atomically(files.log, record::format_csv(state.log));
-  write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
+  if (environment.fall_rates().size() == 1)
+    write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;
   archive.set(kChecksumKey, NpyArray::scalar_text(files.input_checksum));
   trainer.save(archive, kTrainerPrefix);

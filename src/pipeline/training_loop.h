@@ -27,7 +27,7 @@ namespace mimicx::pipeline {
 struct TrainingFiles {
   std::filesystem::path checkpoint;  ///< complete state
   std::filesystem::path log;         ///< a row per iteration
-  std::filesystem::path falls;       ///< share of the visits that end in a fall, over the clip's frames
+  std::filesystem::path falls;       ///< of one clip: share of the visits that end in a fall, over its frames
   /// Identifies the input; a checkpoint of another input is not continued.
   std::string input_checksum;
 };

@@ -69,6 +69,16 @@ TEST_F(Pretrain, OptionsAreTrainedOnTheMotionsOfTheirOwnClusterAlone) {
   }
 }
 
+TEST_F(Pretrain, FallsOverTheFramesAreThoseOfAnOptionOfOneMotion) {
+  pretrain_once("run");
+  const options::Clusters clusters = options::read_clusters(out("run") / "clusters.json");
+  for (int k = 0; k < 2; ++k) {
+    const std::string falls = "option" + std::to_string(k) + ".falls.csv";
+    EXPECT_EQ(std::filesystem::exists(out("run") / "training" / falls),
+              clusters.clusters[k].members.size() == 1);
+  }
+}
+
 TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   pretrain_once("one");
   PretrainConfig config = pretraining("two");
