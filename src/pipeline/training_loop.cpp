@@ -181,9 +181,10 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
     ending = record::SequenceEnding::kNone;  // this budget is larger than the checkpoint's
   // A checkpoint of more samples belongs to a later, larger budget (pretrain.h): nothing to train here.
   while (ending == record::SequenceEnding::kNone && trainer.samples() < config.samples) {
+    const double sharpness = environment.sharpness();  // of the rewards of this iteration
     const rl::IterationStats stats = trainer.iterate(control.threads);
     if (stats.samples >= config.samples) ending = record::SequenceEnding::kBudget;
-    TrainingLogRow row = {stats, environment.statistics(), environment.sharpness(), kNan, kNan};
+    TrainingLogRow row = {stats, environment.statistics(), sharpness, kNan, kNan};
     if (ending == record::SequenceEnding::kBudget || stats.iteration % config.evaluate_iterations == 0) {
       const MeanRollout rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
       consider(best, trainer, rollout.score);

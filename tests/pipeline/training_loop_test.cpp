@@ -35,6 +35,14 @@ TEST_F(Training, RewardOfARollOutThatLostTheMotionDoesNotEndIt) {
   EXPECT_EQ(train_from(1.5F).ending, record::SequenceEnding::kBudget);
 }
 
+TEST_F(Training, LogHasTheSharpnessOfEachIterationsRewards) {
+  train_from(1.5F);
+  const record::Table log = record::read_csv(folder.path / "log.csv");
+  const std::size_t sharpness = log.column("sharpness");
+  EXPECT_EQ(log.rows[0][sharpness], 1.0) << "no roll-out has softened it yet";
+  EXPECT_LT(log.rows[1][sharpness], 1.0);
+}
+
 TEST(Stall, CountsFollowingRollOutsWithoutImprovement) {
   EXPECT_EQ(stall_age(3, 0.020, 0.020), 4);
   EXPECT_EQ(stall_age(3, 0.025, 0.020), 4);
