@@ -80,7 +80,10 @@ pipeline::options::Clusters cluster(const TeachConfig& config, const std::vector
     const auto k = static_cast<std::size_t>(i);
     features[i] = {names[k], pipeline::options::motion_features(reference_of(motions[k]))};
   });
-  pipeline::options::Clusters clusters = pipeline::options::cluster_motions(features, config.clusters);
+  pipeline::options::ClusterConfig settings = config.clusters;
+  // The default seed keeps the clusters of seed 0, which the set that comes with the program has.
+  if (config.school.seed != SchoolConfig{}.seed) settings.seed = config.school.seed;
+  pipeline::options::Clusters clusters = pipeline::options::cluster_motions(features, settings);
   pipeline::options::write_clusters(config.out / "clusters.json", clusters);
   return clusters;
 }

@@ -29,7 +29,7 @@ struct TeachConfig {
   std::filesystem::path out;
   int visits = 16;  ///< visits of every motion in total; they determine the rounds of each option
   SchoolConfig school;
-  pipeline::options::ClusterConfig clusters{.clusters = 1};
+  pipeline::options::ClusterConfig clusters{.clusters = 1};  ///< a seed of the school seeds these, too
 };
 
 /// core/setting.h.

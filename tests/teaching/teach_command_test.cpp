@@ -124,6 +124,18 @@ TEST_F(Teach, CheckpointsOfOtherSettingsAreNotContinued) {
   EXPECT_TRUE(read_file(out("run") / "options.npz") == read_file(out("fresh") / "options.npz"));
 }
 
+TEST_F(Teach, SeedAlsoControlsTheClusters) {
+  teach_once("run");
+  using pipeline::options::read_clusters;
+  EXPECT_EQ(read_clusters(out("run") / "clusters.json").settings.seed, 0u) << "as of the shipped options";
+  TeachConfig config = teaching("seeded");
+  config.plans = {(out("run") / "plans").string()};
+  config.planning.run.inputs.clear();
+  config.school.seed = 7;
+  run(config);
+  EXPECT_EQ(read_clusters(out("seeded") / "clusters.json").settings.seed, 7u);
+}
+
 TEST_F(Teach, FolderWithoutPlansErrorNamesTheCommand) {
   TeachConfig config = teaching("run");
   config.planning.run.inputs.clear();
