@@ -21,6 +21,7 @@ run::SimulatedSequence train_sequence(const std::shared_ptr<const rl::tracking::
   if (made.interrupted) return made;
   made.ending = training.ending;
   made.samples = training.samples;
+  if (training.begun_samples < config.samples) made.begun_samples = training.begun_samples;
   made.agents = training.agents;
   made.after =
       rl::tracking::roll_out(clip, config.tracking, rl::tracking::mean_action(training.agents), job.substeps);

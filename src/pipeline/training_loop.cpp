@@ -25,6 +25,7 @@ constexpr const char* kBestPrefix = "best.";
 constexpr const char* kBestScoreKey = "best_score";
 constexpr const char* kBestAgeKey = "best_age";
 constexpr const char* kEndingKey = "ending";
+constexpr const char* kBegunKey = "begun_samples";
 constexpr double kBetter = 0.99;   ///< a score below this share of the best one resets the stall count
 constexpr double kFarthest = 3.0;  ///< m; no roll-out scores more
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -45,6 +46,7 @@ struct TrainingState {
   Best best;
   record::Table log;
   record::SequenceEnding ending = record::SequenceEnding::kNone;  ///< kNone: it goes on
+  std::int64_t begun_samples = 0;                                 ///< budget that the training began with
 };
 
 /// Roll-outs of the mean actions over all clips.
@@ -106,6 +108,7 @@ void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& envir
   archive.set(kBestScoreKey, NpyArray::scalar(best.score));
   archive.set(kBestAgeKey, NpyArray::scalar_int(best.age));
   archive.set(kEndingKey, NpyArray::scalar_int(static_cast<int>(state.ending)));
+  archive.set(kBegunKey, NpyArray::scalar_int(state.begun_samples));
   write_npz(files.checkpoint, archive);
 }
 
@@ -124,6 +127,7 @@ void resume(Trainer& trainer, const TrainingFiles& files, TrainingState& state) 
   const auto iterations = static_cast<std::size_t>(trainer.iterations());
   if (state.log.rows.size() > iterations) state.log.rows.resize(iterations);
   state.ending = static_cast<record::SequenceEnding>(static_cast<int>(whole_number_at(archive, kEndingKey)));
+  if (archive.has(kBegunKey)) state.begun_samples = whole_number_at(archive, kBegunKey);
 }
 
 std::string detail_of(const rl::IterationStats& s) {
@@ -164,7 +168,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
                      const TrainingControl& control) {
   rl::tracking::TrackingEnvironment environment(clips, config.tracking, config.characters, config.group_size,
                                                 config.seed);
-  TrainingState state{{agents}, empty_training_log()};
+  TrainingState state{{agents}, empty_training_log(), record::SequenceEnding::kNone, config.samples};
   Trainer trainer(config.ppo, course_of(config), std::move(agents), environment);
   resume(trainer, files, state);
   Best& best = state.best;
@@ -216,6 +220,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   if (ending != record::SequenceEnding::kNone) result.ending = ending;
   result.agents = best.agents;
   result.samples = trainer.samples();
+  result.begun_samples = state.begun_samples;
   result.seconds = record::steady_seconds() - started;
   return result;
 }

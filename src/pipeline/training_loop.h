@@ -44,6 +44,7 @@ struct TrainingControl {
 struct TrainingResult {
   std::vector<rl::Agent> agents;  ///< the best of those that were rolled out during the training
   std::int64_t samples = 0;
+  std::int64_t begun_samples = 0;  ///< budget that the training began with
   record::SequenceEnding ending = record::SequenceEnding::kBudget;
   bool interrupted = false;  ///< `should_stop` was true: the state is in the checkpoint
   double seconds = 0.0;      ///< of this call

@@ -76,6 +76,7 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   kept.planning_seconds = plan.planning_seconds;
   kept.training_seconds = trained.training_seconds;
   kept.samples = trained.samples;
+  kept.begun_samples = trained.begun_samples;
   const bool ended_early = trained.ending == record::SequenceEnding::kThreshold ||
                            trained.ending == record::SequenceEnding::kStall;
   if (keep_plan && ended_early && trained.samples > 0) kept.training_ending = trained.ending;

@@ -68,6 +68,7 @@ struct SimulatedSequence {
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
   record::SequenceEnding ending = record::SequenceEnding::kNone;
   std::int64_t samples = 0;
+  std::int64_t begun_samples = 0;  ///< budget that the training began with, if it was smaller; else 0
   /// How a training ended before its budget, if the result is a plan; else kNone.
   record::SequenceEnding training_ending = record::SequenceEnding::kNone;
   std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none

@@ -170,15 +170,12 @@ FollowedParts parts_of(const Method& method, const motion::Reference& reference,
 }
 
 /// Prepare → simulate → judge and write.
-void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done& done) {
+void do_sequence(const Worker& worker, Done& done) {
   const RunState& run = worker.run;
   record::SequenceEntry& entry = done.entry;
   const double started = record::steady_seconds();
   const JudgedMotion motion = prepare_sequence(worker, entry);
   done.told = entry.notes.size();
-  if (there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
-    entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
-                          " samples; one begun with more would explore longer, and be another");
   const SequenceJob job{
       entry.name,     entry.input_checksum,     run.folder,   run.config.substeps, run.config.gains,
       worker.threads, run.config.limit_seconds, motion.needs, worker.context};
@@ -187,6 +184,9 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   done.timing.training_seconds = made.training_seconds;
   done.interrupted = made.interrupted;
   if (!made.interrupted) {
+    if (made.begun_samples > 0)
+      entry.notes.push_back("goes on from a training of " + std::to_string(made.begun_samples) +
+                            " samples; one begun with more would explore longer, and be another");
     judge_sequence(motion, run.method.simulation, made, entry);
     const FollowedParts found = parts_of(run.method, motion.reference, made, job, entry);
     done.timing.planning_seconds += found.seconds;
@@ -213,7 +213,7 @@ Done work_on(const Worker& worker, const std::string& input, const record::Seque
   Done done;
   try {
     done.kept = !begin_entry(worker, input, there, done.entry);
-    if (!done.kept) do_sequence(worker, there, done);
+    if (!done.kept) do_sequence(worker, done);
   } catch (const std::exception& error) {
     if (there && there->finished()) done.unread = reading_error(worker.run.config, input);
     if (!done.unread.empty()) {  // which says nothing about its result

@@ -134,9 +134,7 @@ TEST_F(Adapt, DoesNotContinueATrainingOfOtherOptions) {
   run(config);
   config.run.out = out("fresh");
   run(config);
-  EXPECT_EQ(differences(run::results_of(out("hasty")), run::results_of(out("fresh"))),
-            "manifest.json report.html ")
-      << "a note, and nothing else";
+  EXPECT_EQ(differences(run::results_of(out("hasty")), run::results_of(out("fresh"))), "");
 }
 
 TEST_F(Adapt, UnreadableClustersOmitOnlyTheMap) {
@@ -217,6 +215,28 @@ TEST_F(Adapt, MoreSamplesContinueTheSameTraining) {
   EXPECT_EQ(entry.samples, config.training.samples);
   config.training.seed += 1;
   EXPECT_THROW(run(config), std::invalid_argument) << "the budget alone may grow";
+}
+
+TEST_F(Adapt, NotesASmallerBudgetThatTheTrainingBeganWithAlsoIfItWasInterrupted) {
+  pretrain_once("options");
+  AdaptConfig config = adapting("run", "options");
+  config.arrangement.selector = pipeline::options::Selector::kDp;  // it is not asked to stop
+  EXPECT_EQ(run(config, 3), record::RunOutcome::kInterrupted);
+  config.training.samples *= 2;
+  EXPECT_EQ(run(config, 3), record::RunOutcome::kInterrupted);
+  run(config);
+  const auto notes_in = [&](const char* name) {
+    return record::read_manifest(out(name) / "manifest.json").sequences.at(0).notes;
+  };
+  const auto tells = [](const std::string& note) {
+    return note.starts_with("goes on from a training of 3072 samples");
+  };
+  const std::vector<std::string> notes = notes_in("run");
+  EXPECT_EQ(std::count_if(notes.begin(), notes.end(), tells), 1);
+  config.run.out = out("at once");
+  EXPECT_EQ(run(config, 3), record::RunOutcome::kInterrupted);
+  run(config);
+  for (const std::string& note : notes_in("at once")) EXPECT_FALSE(note.starts_with("goes on")) << note;
 }
 
 // The search comes before the training: it must hear of an interrupt, and of the seconds that are over.
