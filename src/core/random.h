@@ -9,6 +9,8 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <utility>
+#include <vector>
 
 namespace mimicx {
 
@@ -42,5 +44,12 @@ class Random {
   std::uint64_t block_ = ~std::uint64_t{0};  ///< whose words `words_` holds
   std::array<std::uint32_t, 4> words_{};
 };
+
+/// Puts the elements in a random order (Fisher–Yates).
+template <class T>
+void shuffle(std::vector<T>& elements, Random& random) {
+  for (std::size_t left = elements.size(); left > 1; --left)
+    std::swap(elements[left - 1], elements[random.below(static_cast<std::uint32_t>(left))]);
+}
 
 }  // namespace mimicx

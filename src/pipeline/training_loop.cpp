@@ -156,11 +156,7 @@ rl::Course course_of(const TrainingConfig& config) {
 }
 
 rl::Agent untrained_agent(const TrainingConfig& config, int state_size) {
-  rl::AgentShape shape;
-  shape.observation_dim = state_size;
-  shape.action_dim = kDofs;
-  shape.hidden = config.hidden;
-  return rl::make_agent(shape, config.seed);
+  return rl::make_agent({state_size, kDofs, config.hidden}, config.seed);
 }
 
 TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::TrackingClip>>& clips,

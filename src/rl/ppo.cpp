@@ -67,12 +67,6 @@ void update_return_scale(ReturnScale& scale, const RolloutBuffer& buffer, std::s
   follow_returns(scale, sum / count, squares / count, rate);
 }
 
-/// Fisher–Yates.
-void shuffle(std::vector<int>& order, Random random) {
-  for (std::size_t left = order.size(); left > 1; --left)
-    std::swap(order[left - 1], order[random.below(static_cast<std::uint32_t>(left))]);
-}
-
 void gather(const RolloutBuffer& buffer, std::span<const int> rows, const AdvantageScale& scale,
             const ReturnScale& returns, GradientSlot& slot) {
   const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
@@ -251,7 +245,6 @@ void update(Learner& learner, const PpoConfig& config, const LearningRows& data,
             UpdateWorkers& workers, IterationStats& stats) {
   const auto& [buffer, rows, sigma] = data;
   if (rows.empty()) return;
-  stats.learned = true;
   stats.step_size = learner.step_size;
   update_return_scale(learner.agent.returns, buffer, rows, config.return_rate);
   const AdvantageScale advantages = advantage_scale(buffer, rows);
@@ -260,9 +253,9 @@ void update(Learner& learner, const PpoConfig& config, const LearningRows& data,
   bool stopped = false;
   workers.order.assign(rows.begin(), rows.end());
   for (int epoch = 0; epoch < config.epochs && !stopped; ++epoch) {
-    shuffle(workers.order,
-            Random(key.seed, {kShuffle, key.learner, static_cast<std::uint64_t>(learner.iteration),
-                              static_cast<std::uint64_t>(epoch)}));
+    Random random(key.seed, {kShuffle, key.learner, static_cast<std::uint64_t>(learner.iteration),
+                             static_cast<std::uint64_t>(epoch)});
+    shuffle(workers.order, random);
     double epoch_kl = 0.0;
     for (std::size_t k = 0; k < minibatches; ++k) {
       const LearningRows batch{buffer, part(workers.order, k, minibatches), sigma};

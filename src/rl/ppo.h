@@ -39,8 +39,7 @@ struct IterationStats {
   double explained_variance = 0.0;   ///< 1 − Var(return − V)/Var(return), before the update
   double saturation = 0.0;           ///< share of the mean actions' components beyond ± 3
   double sigma = 0.0;
-  bool learned = false;  ///< false for the first iteration, which only measures observations
-  int minibatches = 0;   ///< gradient steps taken
+  int minibatches = 0;  ///< gradient steps taken; 0 in the first iteration, which only measures observations
   double policy_loss = 0.0, value_loss = 0.0, penalty = 0.0, clip_fraction = 0.0;
   double actor_gradient = 0.0, critic_gradient = 0.0;  ///< norms before clipping
   double kl = 0.0;         ///< KL(old ‖ new): mean of the last epoch, or of the minibatch that stopped it

@@ -162,11 +162,7 @@ class PpoTrainer {
           &IterationStats::kl, &IterationStats::step_size})
       total.*member = mean(member);
     total.minibatches = 0;
-    total.learned = false;
-    for (const IterationStats& part : parts) {
-      total.minibatches += part.minibatches;
-      total.learned = total.learned || part.learned;
-    }
+    for (const IterationStats& part : parts) total.minibatches += part.minibatches;
     return total;
   }
 

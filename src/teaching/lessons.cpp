@@ -85,14 +85,6 @@ void append_lessons(const Lessons& more, Lessons& lessons) {
   lessons.put_back += more.put_back;
 }
 
-rl::Agent untrained_agent(int state_size, const std::vector<int>& hidden, std::uint64_t seed) {
-  rl::AgentShape shape;
-  shape.observation_dim = state_size;
-  shape.action_dim = kDofs;
-  shape.hidden = hidden;
-  return rl::make_agent(shape, seed);
-}
-
 void scale_inputs(const Lessons& lessons, rl::Agent& agent) {
   const nn::Matrix<float> states =
       Eigen::Map<const nn::Matrix<float>>(lessons.states.data(), lessons.rows(), agent.actor.inputs());

@@ -46,9 +46,6 @@ struct Lessons {
 /// Appends the rows of `more`.
 void append_lessons(const Lessons& more, Lessons& lessons);
 
-/// An untrained agent: two or more hidden layers, mean actions near zero.
-rl::Agent untrained_agent(int state_size, const std::vector<int>& hidden, std::uint64_t seed);
-
 /// Sets the agent's input normalisation from the states of these lessons.
 void scale_inputs(const Lessons& lessons, rl::Agent& agent);
 

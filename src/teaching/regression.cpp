@@ -49,7 +49,7 @@ void take_gradient(const WeighedLessons& data, std::span<const int> rows, const 
 }  // namespace
 
 PolicyInTraining untrained_policy(int state_size, const std::vector<int>& hidden, std::uint64_t seed) {
-  PolicyInTraining policy{untrained_agent(state_size, hidden, seed), {}};
+  PolicyInTraining policy{rl::make_agent({state_size, kDofs, hidden}, seed), {}};
   policy.adam = nn::make_adam<float>(nn::parameters(policy.agent.actor));
   return policy;
 }

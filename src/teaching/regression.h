@@ -40,6 +40,7 @@ struct PolicyInTraining {
   rl::Agent agent;
   nn::Adam<float> adam;  ///< of the actor
 };
+/// Its mean actions are near zero.
 PolicyInTraining untrained_policy(int state_size, const std::vector<int>& hidden, std::uint64_t seed);
 
 /// What a policy regresses onto. Refers to its parts.

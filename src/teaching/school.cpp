@@ -36,8 +36,7 @@ List<Visit> visits(const SchoolConfig& config, int count, int round) {
       order.resize(static_cast<std::size_t>(count));
       std::iota(order.begin(), order.end(), 0);
       Random random(config.seed, {kVisitOrder, static_cast<std::uint64_t>(shuffled)});
-      for (int i = count; i > 1; --i)
-        std::swap(order[i - 1], order[static_cast<int>(random.below(static_cast<std::uint32_t>(i)))]);
+      shuffle(order, random);
     }
     const int teacher = order[static_cast<int>(place % count)];
     const bool mirrored = config.mirror && (shuffled + teacher) % 2 != 0;

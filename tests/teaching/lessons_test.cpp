@@ -11,7 +11,7 @@ namespace {
 
 using physics::kLanes;
 
-/// A student that has learned nothing; unlike `untrained_agent` its actions are large.
+/// A student that has learned nothing; unlike those of a new agent its actions are large.
 rl::Agent clumsy_student() {
   rl::AgentShape shape;
   shape.observation_dim = rl::tracking::kStateSize;
