@@ -57,12 +57,14 @@ class Runs:
         self.version = " and ".join(versions)
 
     def run(self, out, *arguments):
-        """Runs mimicx into the folder unless it has been, and leaves its seconds of processor time and its command beside
-        it."""
+        """Runs mimicx into the folder unless it is made, and leaves its seconds of processor time and its command beside it.
+        Where it is made again, the scores beside it are removed."""
         done, made_by = (out.parent / (out.name + end) for end in (".seconds", ".command"))
         command = " ".join(map(str, arguments)) + "\n"
-        if not done.exists():
+        if not done.exists() or not out.exists():
             out.parent.mkdir(parents=True, exist_ok=True)
+            for old in (done, *out.parent.glob(f"{out.name}.*scores.json")):
+                old.unlink(missing_ok=True)
             made_by.write_text(command)
             statuses = (0, 1) if arguments[0] in FOLLOWS else (0,)
             done.write_text(f"{call(self.program, *arguments, '--out', out, statuses=statuses):.2f}\n")

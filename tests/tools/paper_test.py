@@ -145,12 +145,24 @@ class MadeOnce(unittest.TestCase):
 
     def test_a_run_by_another_command_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
-            runs = self.runs(folder, "exit 0")
+            runs = self.runs(folder, '[ "$1" = --version ] || mkdir "$5"')
             with contextlib.redirect_stderr(io.StringIO()):
                 runs.run(runs.out / "plan", "plan", "--clips", 1)
                 runs.run(runs.out / "plan", "plan", "--clips", 1)
                 with self.assertRaisesRegex(SystemExit, "another command than mimicx plan --clips 8"):
                     runs.run(runs.out / "plan", "plan", "--clips", 8)
+
+    def test_a_removed_run_is_made_again_and_its_scores_are_removed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            runs = self.runs(folder, '[ "$1" = --version ] || mkdir "$5"')
+            with contextlib.redirect_stderr(io.StringIO()):
+                plan = runs.run(runs.out / "plan", "plan", "--clips", 1)
+                for name in ("plan.scores.json", "plan.noisy.scores.json", "planned.scores.json"):
+                    (runs.out / name).write_text("{}")
+                plan.rmdir()
+                self.assertTrue(runs.run(plan, "plan", "--clips", 8).exists())
+            self.assertEqual((runs.out / "plan.command").read_text(), "plan --clips 8\n")
+            self.assertEqual([path.name for path in runs.out.glob("*.scores.json")], ["planned.scores.json"])
 
     def test_only_motions_that_are_not_followed_are_a_result(self):
         with tempfile.TemporaryDirectory() as folder:
