@@ -69,6 +69,31 @@ class Means(unittest.TestCase):
         self.assertEqual({len(row.split()) for row in paper.ROWS_2.values()}, {len(paper.COLUMNS_2) + 1})
         self.assertEqual({len(row.split()) for rows in paper.PAPER_3.values() for row in rows}, {len(paper.COLUMNS_3) - 2})
 
+    def test_the_truth_of_files_is_planned_once_for_all_seeds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scores = ", ".join(f'"{k}": {{"value": 1.0}}' for k in (*paper.COLUMNS_1, "FS_gt", "Jitter"))
+            program = pathlib.Path(folder, "program")
+            program.write_text(f"""#!/bin/sh
+                for last; do :; done
+                case $1 in
+                --version) echo one ;;
+                evaluate) echo '{{"motions": [{{"name": "walk", "status": "ok", "metrics": {{{scores}}}}}]}}' > "$last" ;;
+                *) mkdir -p "$last"
+                   echo '{{"sequences": [{{"name": "walk", "status": "ok", "feasibility": {{}}}}]}}' > "$last/manifest.json" ;;
+                esac""")
+            program.chmod(0o755)
+            out, argv = pathlib.Path(folder, "out"), sys.argv
+            sys.argv = ["paper", "spread", "a walk.bvh", "--seeds", "2", "3", "--out", str(out), "--mimicx", str(program)]
+            try:
+                with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()) as commands:
+                    paper.main()
+            finally:
+                sys.argv = argv
+            table = (out / "spread.md").read_text()
+        self.assertEqual(len(re.findall(r"^program plan \S+/truth ", commands.getvalue(), re.MULTILINE)), 1)
+        self.assertIn("`tools/paper spread 'a walk.bvh' --seeds 2 3`", table)
+        self.assertIn("independent, keypoints: 1 of 1, 1 of 1", table)
+
 
 class Results(unittest.TestCase):
     def written(self, page, **tables):
