@@ -21,6 +21,7 @@ MISTAKES = [  # what is added to which file, what the check says of it
     ("docs/usage.md", "[method.md](method.md) §99", "docs/method.md has no §99"),
     ("docs/usage.md", "[method.md](method.md), §7", "no comma before the first §"),
     ("docs/usage.md", '[method.md](method.md), "No such title"', 'docs/method.md has no "No such title"'),
+    ("docs/answers.md", "`121`, not 7, and `−1,234.5`", "the program of §8 does not print −1,234.5 (tour/expected.txt)"),
     ("docs/physics.md", "as §99 says", "this page has no §99"),
     ("src/core/error.h", "/// docs/method.md §8,\n/// §99", "docs/method.md has no §99"),
     ("src/core/error.h", "/// docs/physics.md §4, (99)", "docs/physics.md has no (99) in §4"),
@@ -54,7 +55,7 @@ def append(folder, name, text):
 
 with tempfile.TemporaryDirectory() as temporary:
     copy = pathlib.Path(temporary)
-    for name in ("src", "docs", "tests", "tools", "cmake"):
+    for name in ("src", "docs", "tests", "tools", "tour", "cmake"):
         shutil.copytree(ROOT / name, copy / name)
     for name in ("README.md", "CMakeLists.txt"):
         shutil.copy(ROOT / name, copy / name)
