@@ -336,8 +336,8 @@ def romp(data, size):
 
 
 def phalp(data, size):
-    """{person: Track} of {frame: lists by person}. The place is that of a camera of 5000/256 of the picture's longer
-    side as focal length. A person who is not seen (tracked_time > 0) stands there as last seen: left out."""
+    """{person: Track} of {frame: lists by person}. The place is that of a camera of 5000/256 of the longer side of the
+    picture (`size`) as focal length. A person who is not seen (tracked_time > 0) stands there as last seen: left out."""
     rows = {}
     for frame, name in numbered(data):
         one = data[name]
@@ -349,11 +349,12 @@ def phalp(data, size):
             body, place = one["smpl"][k], np.asarray(one["camera"][k], float).reshape(3)
             if not isinstance(body, dict):
                 continue
-            picture = one.get("size", size)
-            if picture is not None and len(picture) and np.ndim(picture[0]):
+            picture = size or one.get("size")
+            if np.ndim(picture) == 2:
                 picture = picture[k]
-            if size or picture is not None and np.size(picture) == 2:
-                place = to_diagonal(place / [1.0, 1.0, 5000 / 256], size or picture)
+            if np.size(picture) != 2:
+                raise ValueError("PHALP's camera needs the size of the picture: --size W H")
+            place = to_diagonal(place / [1.0, 1.0, 5000 / 256], picture)
             turns = np.concatenate([np.reshape(body[part], (-1, 3, 3)) for part in ("global_orient", "body_pose")])
             rows.setdefault(person, []).append((frame, vectors(turns).reshape(-1), place, np.ravel(body["betas"])[:10]))
     return {person: before_camera("smpl", np.stack([r[1] for r in seen]), np.stack([r[2] for r in seen]) + J0["smpl"],

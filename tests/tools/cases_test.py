@@ -22,7 +22,8 @@ MIMICX, CASES, ONLY = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
 CONVERTER = pathlib.Path(__file__).resolve().parents[2] / "tools" / "convert_video_results.py"
 if not CASES.is_dir():
     sys.exit(77)
-OUT = pathlib.Path(tempfile.mkdtemp())
+folder = tempfile.TemporaryDirectory()  # removed at the end
+OUT = pathlib.Path(folder.name)
 failed = 0
 
 
@@ -184,9 +185,13 @@ d = "34-pickled-results/"
 smpl(d + "amass_with_pickled_labels.npz", d + "expected_smpl.npz", words=["pickle"])
 for name in ("trace_like.npz", "romp_like.npz", "phc_like.pkl", "phalp_like.pkl"):
     line(d + name, "pickle", "convert_video_results", never=["frame rate"])
+for name, expected, words, options in (
+        ("trace_like.npz", 1, "expected a member 'world_global_rots'", []), ("romp_like.npz", 0, "frames 0 to 39", []),
+        ("phc_like.pkl", 0, "frames 0 to 39", []), ("phalp_like.pkl", 0, "frames 0 to 39", ["--size", 1920, 1080]),
+        ("phalp_like.pkl", 1, "--size W H", [])):  # its depths need the picture's size, which is not in it
     if wanted(d):
-        status, text = run_python(CONVERTER, CASES / d / name, OUT / (name + ".npz"))
-        row(d + name + ", converted", len(text.strip().splitlines()) == 1, text)
+        status, text = run_python(CONVERTER, CASES / d / name, OUT / (name + ".npz"), *options)
+        row(d + name + ", converted", status == expected and words in text and len(text.splitlines()) == 1, text)
 d = "39-mjcf-extreme-bodies/"
 if wanted(d):
     models = [("betas " + one, ["--betas", one]) for one in (CASES / d / "betas.txt").read_text().split()]

@@ -532,6 +532,10 @@ def check_phalp():
                   "body_pose": np.array([rotation(v) for v in GLOBAL["body_pose"][t].reshape(-1, 3)] + [np.eye(3)] * 2)}]}
         for t in range(FRAMES)}
     expect_motion(written(frames, "phalp.pkl"), SMPL_J0)
+    given = {name: {k: v for k, v in one.items() if k != "size"} for name, one in frames.items()}
+    expect_motion(written(given, "without_size.pkl", "--size", "1920", "1080"), SMPL_J0)
+    status, complaint, _ = convert("without_size.pkl")
+    assert status == 1 and "--size W H" in complaint and len(complaint.splitlines()) == 1, complaint
     for t, one in enumerate(frames.values()):  # what is lost is kept as it was last seen
         one["tracked_time"] = [max(0, t - 1) if t < 5 else 0]
     with open("lost.pkl", "wb") as file:
