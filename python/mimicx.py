@@ -335,8 +335,8 @@ class Simulator(_Owner):
 
     def step(self, steps=1):
         """Does physics steps, 240 a second by default. @raise Error where the simulation fails; it is as before then"""
-        if not 0 <= operator.index(steps) < 2**31:
-            raise ValueError(f"steps: expected a whole number from 0, found {steps}")
+        if not 1 <= operator.index(steps) < 2**31:
+            raise ValueError(f"steps: expected a whole number from 1, found {steps}")
         self._check(_lib.mimicx_simulator_step(self._handle, steps))
 
 

@@ -178,6 +178,8 @@ class Simulating(unittest.TestCase):
         for steps in (8.0, 2**32 + 1):
             with self.assertRaises((TypeError, ValueError)):
                 pushed.step(steps)
+        with self.assertRaisesRegex(ValueError, "from 1, found 0"):
+            pushed.step(0)
 
     def test_arrays_outlive_the_simulator(self):
         place = mimicx.Simulator().root_position
