@@ -4,7 +4,7 @@
 // --planned: they follow the planned motions instead of the plans' references. A motion is followed if no
 // body is ever farther than 0.5 m from the reference (docs/metrics.md). For each folder a line per kind of
 // motion (its name up to the last "_"): how many of the motions with a complete plan the best option follows,
-// and the medians of their gMPJPE and MPJPE, mm. Exit status: 0 done, 1 a file could not be read, 2 usage.
+// and the median of their gMPJPE, mm. Exit status: 0 done, 1 a file could not be read, 2 usage.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
