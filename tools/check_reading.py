@@ -7,6 +7,7 @@ each rule a row per truth: how often it was found, found with a warning, found w
 word. NumPy alone.
 """
 import concurrent.futures
+import itertools
 import os
 import re
 import subprocess
@@ -20,6 +21,9 @@ import numpy as np
 Z_UP_BVH = ("zombie.bvh", "walk1.bvh", "zombieWalk1.bvh", "tpose.bvh")
 LEFT_OUT = ("expected", "tpose", "split", "gap_", "nan_", "two_people", "prop", "pickled", "comma", "fps_", "utf16",
             "backstroke", "asleep")
+UNIT_OF = {  # how names of BVH begin: what README.md and case.md of ../shared say; all others are in centimetres
+    "inches / 0.45": ("cmu_", "neutral_", "old_", "strutting_"), "inches": ("zombie.",),
+    "decimetres": ("walk1.", "zombieWalk1.", "zero_toes_dm.")}
 UNITS = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254, "inches / 0.45": 0.0254 / 0.45,
          "decimetres": 0.1}
 TURNS = {"y": np.eye(3), "z": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), "-y": np.diag([1.0, -1, -1]),
@@ -85,7 +89,8 @@ def mirrored_bvh(text):
 
 def altered_npz(path, turn=None, scale=1.0, rate=1.0, exchanged=False):
     from_vector = lambda v: rotation(np.asarray(v, float))
-    data = {k: v for k, v in np.load(path, allow_pickle=True).items() if v.dtype != object}
+    data = {k: v for k, v in np.load(path, allow_pickle=True).items()
+            if v.dtype != object and k not in ("root_orient", "pose_body")}  # read in place of the poses
     poses, trans = np.array(data["poses"], float), np.array(data["trans"], float)
     if turn is not None:
         j0 = np.array([-.002, -.223, .028])
@@ -93,8 +98,6 @@ def altered_npz(path, turn=None, scale=1.0, rate=1.0, exchanged=False):
         poses[:, :3] = [vector(m) for m in roots]
         trans = (trans + j0) @ turn.T - j0
     if exchanged:
-        for name in ("root_orient", "pose_body"):  # read in place of the poses
-            data.pop(name, None)
         joints = poses[:, :66].reshape(-1, 22, 3)
         left = np.array([1, 4, 7, 10, 13, 16, 18, 20])
         joints[:, [*left, *left + 1]] = joints[:, [*left + 1, *left]]
@@ -124,22 +127,25 @@ def vector(m):
 
 
 def jobs_of(path):
-    """(rule, truth, options, content) of a file; content: text or members; None: the file itself."""
+    """(rule, truth, factor of the rate, content) of a file; content: text, members, or the path of the file itself."""
     skip = any(word in path.name for word in LEFT_OUT)
     if path.suffix == ".bvh" and not skip:
         text = path.read_text(errors="replace").replace("\r", "")
         try:
-            split_bvh(text)
+            head, _, rows = split_bvh(text)
         except (ValueError, IndexError):
+            return
+        if rows.shape[1] != len(position_columns(head)):  # they are wrapped
             return
         z_up = path.name in Z_UP_BVH
         yield "up", "z" if z_up else "y", None, path
         if not z_up:
             for name in ("z", "-y", "x"):
                 yield "up", name, None, turned_bvh(text, name)
-        yield "unit", "as it is", None, path
+        unit = next((u for u, names in UNIT_OF.items() if path.name.startswith(names)), "centimetres")
+        yield "unit", unit, None, path
         for name in UNITS:
-            yield "unit", name, name, text
+            yield "unit", name, None, scaled_bvh(text, UNITS[unit] / UNITS[name])
         for factor in (0.5, 1, 2, 4):
             yield "rate", f"{factor:g} times", factor, timed_bvh(text, factor)
         yield "sides", "right", None, path
@@ -153,9 +159,8 @@ def jobs_of(path):
         y_up = "y_up" in path.name or path.parent.name[:2] in ("31", "33")
         yield "up (npz)", "y" if y_up else "z", None, path
         if not y_up:
-            for name, turn in (("y", TURNS["z"].T), ("-y", np.diag([1.0, -1, -1]) @ TURNS["z"].T),
-                               ("x", TURNS["x"] @ TURNS["z"].T)):
-                yield "up (npz)", name, None, altered_npz(path, turn=turn)
+            for name in ("y", "-y", "x"):
+                yield "up (npz)", name, None, altered_npz(path, turn=TURNS[name] @ TURNS["z"].T)
             for name, unit in (("metres", 1.0), ("centimetres", .01), ("millimetres", .001), ("decimetres", .1),
                                ("inches", .0254), ("feet", .3048)):
                 yield "unit (npz)", name, None, altered_npz(path, scale=1 / unit)
@@ -165,28 +170,18 @@ def jobs_of(path):
         yield "sides (npz)", "exchanged", None, altered_npz(path, exchanged=True)
 
 
-def unit_of(text):
-    m = re.search(r"unit (.+?): legs are", text)
-    return m.group(1) if m else "none"
-
-
-def judge(mimicx, path, rule, truth, extra, content, folder):
-    target = content
-    if not isinstance(content, Path):
-        target = Path(tempfile.mkstemp(suffix=path.suffix, dir=folder)[1])
-    if rule == "unit" and extra is not None:
-        original = info(mimicx, path)
-        if original is None or unit_of(original) not in UNITS:
-            return None
-        content = scaled_bvh(content, UNITS[unit_of(original)] / UNITS[extra])
-    if isinstance(content, str):
-        target.write_text(content)
-    elif isinstance(content, dict):
-        with open(target, "wb") as file:
-            np.savez(file, **content)
-    text = info(mimicx, target)
-    if not isinstance(content, Path):
-        os.remove(target)
+def judge(mimicx, path, rule, truth, factor, content):
+    """(rule, truth, right, warned, words) of a file or a copy; None: it cannot be read."""
+    if isinstance(content, Path):
+        text = info(mimicx, content)
+    else:
+        with tempfile.NamedTemporaryFile(suffix=path.suffix) as file:
+            if isinstance(content, str):
+                file.write(content.encode())
+            else:
+                np.savez(file, **content)
+            file.flush()
+            text = info(mimicx, file.name)
     if text is None:
         return None
     warned, found = False, ""
@@ -195,8 +190,8 @@ def judge(mimicx, path, rule, truth, extra, content, folder):
         found = {"upside down": "-z"}.get(m.group(1), m.group(1)) if m else "none"
         warned = "is not sure" in text
     elif rule == "unit":
-        found, warned = unit_of(text), "the unit may also be" in text or "no usual unit" in text
-        truth = found if truth == "as it is" and found != "none" else truth
+        m = re.search(r"unit (.+?): legs are", text)
+        found, warned = m.group(1) if m else "none", "the unit may also be" in text or "no usual unit" in text
     elif rule == "unit (npz)":
         m = re.search(r"translation is taken to be in (\w+)", text)
         found, warned = m.group(1) if m else "metres", "the translation may be in" in text
@@ -204,7 +199,7 @@ def judge(mimicx, path, rule, truth, extra, content, folder):
         m = re.search(r"frame rate: ([\d.]+) fps, not", text)
         found = "changed" if m else "kept"
         warned = "the frame rate may be" in text
-        wanted = "kept" if extra == 1 else "changed"
+        wanted = "kept" if factor == 1 else "changed"
         flew = "flight" in text
         truth = f"{truth}, {'flights' if flew else 'no flights'}"
         return rule, truth, found == wanted, warned, f"{path.name} {found}"
@@ -218,13 +213,9 @@ def main():
     verbose = bool(os.environ.get("VERBOSE"))
     files = sorted(p for folder in folders for p in Path(folder).rglob("*") if p.is_file())
     table = defaultdict(Counter)
-    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        tasks = [pool.submit(judge, mimicx, path, rule, truth, extra, content, folder)
-                 for path in files for rule, truth, extra, content in jobs_of(path)]
-        for task in tasks:
-            if (result := task.result()) is None:
-                continue
-            rule, truth, right, warned, words = result
+    of_file = lambda path: [judge(mimicx, path, *job) for job in jobs_of(path)]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for rule, truth, right, warned, words in filter(None, itertools.chain.from_iterable(pool.map(of_file, files))):
             table[rule, truth][right, warned] += 1
             if verbose and (not right or warned):
                 print("right, warned" if right else "wrong, warned" if warned else "WRONG", rule, words, file=sys.stderr)
