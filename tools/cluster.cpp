@@ -66,6 +66,7 @@ int cluster(const ClusterArguments& a) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  make_folder(a.out.parent_path());
   pipeline::options::write_clusters(a.out, clusters);
   if (!a.json.empty()) write_json(a.json, read_file(a.out));
   std::fprintf(table_file(a.json), "%zu clusters, no two motions of one farther apart than %.2f\n%s\n%s",

@@ -55,10 +55,12 @@ std::FILE* table_file(const std::filesystem::path& json) {
 }
 
 void write_json(const std::filesystem::path& path, const std::string& text) {
-  if (is_standard_output(path))
+  if (is_standard_output(path)) {
     std::cout << text;
-  else
-    write_file_atomically(path, text);
+    return;
+  }
+  make_folder(path.parent_path());
+  write_file_atomically(path, text);
 }
 
 ShownControls::ShownControls(std::ostream& out) : out_(out), target_(out.rdbuf(this)) {}

@@ -34,7 +34,8 @@ struct PlanConfig {
 /// The failure of a plan.
 struct Failure {
   int frame = -1;  ///< first frame that no window reached
-  int body = -1;   ///< body with the largest distance from its goal there; -1: the window was cut before it
+  int body = -1;   ///< farthest from its goal there, or one frame before if the window was cut there; -1:
+                   ///< nothing was reached
   double distance = 0;  ///< its distance, m
 };
 

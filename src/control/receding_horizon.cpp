@@ -107,12 +107,11 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
       body = static_cast<int>(i);
     }
   }
-  const bool too_far = distance > task.config.failure_distance;
-  const int frame = plan.begin + t + (too_far ? 0 : 1);
+  const int frame = plan.begin + t + (distance > task.config.failure_distance ? 0 : 1);
   if (frame < result.lost_frame) return;
   result.lost_frame = frame;
-  result.lost_body = too_far ? body : -1;
-  result.lost_distance = too_far ? distance : 0.0;
+  result.lost_body = body;
+  result.lost_distance = distance;
 }
 
 /// State of the search over window lengths.

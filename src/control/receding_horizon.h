@@ -36,8 +36,9 @@ enum class Ending { kFollowed, kLost, kStopped };
 struct HorizonResult {
   Trajectory motion;  ///< as far as it was followed; after a failure the longest attempt
   Ending ending = Ending::kFollowed;
-  int lost_frame = -1;       ///< first frame that no window reached; of several failures the latest frame
-  int lost_body = -1;        ///< body with the largest distance from the goal there; -1: the window was cut
+  int lost_frame = -1;  ///< first frame that no window reached; of several failures the latest frame
+  int lost_body = -1;   ///< farthest from the goal there, or one frame before if the window was cut there;
+                        ///< -1: nothing was reached
   double lost_distance = 0;  ///< its distance, m
   int iterations = 0;
   int linearised = 0;  ///< frames, over all iterations

@@ -63,8 +63,8 @@ struct Model {
   PerBody<Quat<Real>> range_centre;
   PerBody<Vec3<Real>> range_inverse;  ///< 1 / (2 sin(half range / 2)) per axis
 
-  List<ContactPoint> contacts;            ///< sorted by body
-  List<int> contact_source;               ///< index in Character::contact_points
+  List<ContactPoint> contacts;  ///< sorted by body
+  List<int> contact_source;     ///< index in Character::contact_points
   PerBody<Capsule> capsule;
   std::vector<std::array<int, 2>> self_pairs;
   std::vector<int> capsule_bodies;  ///< bodies that occur in self_pairs

@@ -41,7 +41,6 @@ void Outputs::claim(const std::filesystem::path& path, std::string_view opening,
   claim_new(path);
   if (!force_ && is_there(path) && !is_own_file(path, opening, at))
     throw OutputRefused(path.string() + " exists and was not written by this program: --force overwrites it");
-  if (path.has_parent_path()) make_folder(path.parent_path());  // an error here comes before the work
 }
 
 void Outputs::claim_own(const std::filesystem::path& path) { claim_new(path); }

@@ -41,8 +41,7 @@ Npz options_file() {
       pipeline::options::constant_option(rl::tracking::kEncodedRest + encoder.code, 0.1f);
   encoded.encoder = nn::train_autoencoder(pipeline::options::encoder_inputs(*clip), encoder, 1);
   set.options.push_back({encoded, "walks", {}, 2, 1000});
-  set.options.push_back(
-      {pipeline::options::constant_option(rl::tracking::kStateSize, 0.1f), "stands", {}, 1, 500});
+  set.options.push_back({encoded, "stands", {}, 1, 500});
   return written([&](const auto& path) { pipeline::options::write_options(path, set); });
 }
 

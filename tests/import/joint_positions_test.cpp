@@ -329,7 +329,7 @@ TEST(JointPositions, AnotherOrderOfTheJointsIsRefused) {
                                  kSpine2,       kSpine3,    kNeck,       kHead,        kLeftCollar,
                                  kLeftShoulder, kLeftElbow, kLeftWrist,  kRightCollar, kRightShoulder,
                                  kRightElbow,   kRightWrist};
-  for (const char* kind : {"walk", "squat", "punch", "kick", "dance", "sidestep"}) {
+  for (const char* kind : {"walk", "squat", "punch", "kick", "dance", "lunge"}) {
     const NpyArray ours = positions_of(truth(kind));
     const std::vector<double> values = ours.to_double();
     std::vector<double> other(values.size());

@@ -51,6 +51,17 @@ TEST_F(Cli, InfoDescribesThePreparationOfARun) {
     EXPECT_NEAR(told.at(name).get<double>(), value_of(prepared.preparation_values, name), 1e-6) << name;
 }
 
+TEST_F(Cli, ResultsGoIntoNewFolders) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  for (const std::string& command :
+       {"info " + path("a.npz") + " --json ", "scene " + path("a.npz") + " --out ",
+        "cluster " + path("a.npz") + " --out "}) {
+    const std::string file = path("new" + std::to_string(command.size()) + "/folder/x.json");
+    EXPECT_EQ(mimicx(command + file).status, 0) << command;
+    EXPECT_TRUE(std::filesystem::exists(file)) << command;
+  }
+}
+
 TEST_F(Cli, AMissingFileLeavesNoFolderBehind) {
   const Call call = mimicx("plan " + path("nothere.npz"));
   EXPECT_EQ(call.status, 1);

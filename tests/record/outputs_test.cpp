@@ -80,13 +80,5 @@ TEST_F(OutputsTest, RefusesFoldersDevicesAndSecondClaims) {
   EXPECT_NO_THROW(outputs.claim("")) << "no file at all";
 }
 
-// Whoever names a folder that cannot be made learns it before the work.
-TEST_F(OutputsTest, ClaimMakesTheFolder) {
-  Outputs({}, false).claim(path("new/folder/x.json"), kJsonOpening);
-  EXPECT_TRUE(std::filesystem::is_directory(path("new/folder")));
-  std::ofstream(path("file")) << "x";
-  EXPECT_THROW(Outputs({}, false).claim(path("file/x.json"), kJsonOpening), std::exception);
-}
-
 }  // namespace
 }  // namespace mimicx::record

@@ -44,9 +44,8 @@ struct ComparedMotion {
 };
 
 /// @param sharing  of the motion's frames
-/// @param mass  of the person, kg; NaN: that of the measurement, or else the one with which the plates'
-/// impulse
-///              in the frames that count is what the motion needs
+/// @param mass  of the person, kg; NaN: that of the measurement, or else the one with which the plates push
+///              as much, over the frames that count, as the motion needs
 /// @throws DataError if the two have fewer than five frames in common, and if there is no mass
 ComparedMotion compare_forces(const audit::SimulatedFrames& motion,
                               const PerFrame<audit::LoadSharing>& sharing,
