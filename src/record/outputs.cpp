@@ -39,8 +39,8 @@ Outputs::Outputs(const std::vector<std::string>& inputs, bool force) : force_(fo
 void Outputs::claim(const std::filesystem::path& path, std::string_view opening, std::size_t at) {
   if (path.empty()) return;
   claim_new(path);
-  if (!force_ && is_there(path) && !is_own_file(path, opening, at))
-    throw OutputRefused(path.string() + " exists and was not written by this program: --force overwrites it");
+  if (force_ || !is_there(path) || is_own_file(path, opening, at)) return;
+  throw OutputRefused(path.string() + " exists and was not written by this program: --force overwrites it");
 }
 
 void Outputs::claim_own(const std::filesystem::path& path) { claim_new(path); }
