@@ -2,23 +2,20 @@
 
   check_real_test.py tools/check_real      status 77 without NumPy
 """
-import importlib.machinery
-import importlib.util
 import pathlib
 import sys
 import tempfile
 import types
 import unittest
 
+from loaded_script import loaded
+
 try:
     import numpy as np
 except ImportError:
     sys.exit(77)
 
-loader = importlib.machinery.SourceFileLoader("check_real", sys.argv.pop(1))
-real = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_real", loader))
-sys.dont_write_bytecode = True
-loader.exec_module(real)
+real = loaded(sys.argv.pop(1))
 
 
 def judged(values, table):

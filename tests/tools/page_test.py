@@ -3,18 +3,14 @@
 
     page_test.py TOOL
 """
-import importlib.machinery
-import importlib.util
 import pathlib
 import sys
 import tempfile
 import unittest
 
-TOOL = sys.argv.pop(1)
-sys.dont_write_bytecode = True
-loader = importlib.machinery.SourceFileLoader("page", TOOL)
-page = importlib.util.module_from_spec(importlib.util.spec_from_loader("page", loader))
-loader.exec_module(page)
+from loaded_script import loaded
+
+page = loaded(sys.argv.pop(1))
 
 
 class Package(unittest.TestCase):

@@ -4,8 +4,6 @@
     paper_test.py TOOLS
 """
 import contextlib
-import importlib.machinery
-import importlib.util
 import io
 import pathlib
 import re
@@ -13,19 +11,11 @@ import sys
 import tempfile
 import unittest
 
+from loaded_script import loaded
+
 TOOLS = pathlib.Path(sys.argv.pop(1))
-sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOOLS))
-
-
-def loaded(name):
-    loader = importlib.machinery.SourceFileLoader(name, str(TOOLS / name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
-    loader.exec_module(module)
-    return module
-
-
-paper, results = loaded("paper"), loaded("results")
+paper, results = loaded(TOOLS / "paper"), loaded(TOOLS / "results")
 table_runs = sys.modules["table_runs"]
 
 
