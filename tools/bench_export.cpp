@@ -31,9 +31,7 @@ struct Kept {
 
 /// @param taught  what distances are measured against
 Kept try_out(const motion::Reference& taught, const StoredPolicy& policy, const control::PushTest& pushes) {
-  rl::tracking::TrackingConfig task;
-  task.simulation = policy.simulation;
-  task.actions = policy.actions;
+  const rl::tracking::TrackingConfig task = policy.task();
   const auto clip = rl::tracking::make_tracking_clip(policy.motion, task);
   const auto rollout = rl::tracking::roll_out(clip, task, rl::tracking::mean_action({policy.agent}));
   const judge::Scores scores = judge::score_simulated(taught, rollout);

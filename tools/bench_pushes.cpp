@@ -33,9 +33,7 @@ control::PushResult pushed(const record::RunFolder& run, const std::string& name
 control::PushResult pushed_policy(const record::RunFolder& run, const std::string& name,
                                   const control::PushTest& test) {
   const files::StoredPolicy policy = files::read_policy(run.policy(name));
-  rl::tracking::TrackingConfig task;
-  task.simulation = policy.simulation;
-  task.actions = policy.actions;
+  const rl::tracking::TrackingConfig task = policy.task();
   return teaching::test_pushes(rl::tracking::make_tracking_clip(policy.motion, task), task, policy.agent,
                                test);
 }

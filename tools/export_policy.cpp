@@ -102,11 +102,9 @@ void export_options(const AskedOptions& asked, const Character& body,
                     std::vector<policy_export::ExportedPolicy>& exported) {
   const auto set = pipeline::options::read_options(asked.file);
   const std::string file = asked.file.string();
-  rl::tracking::ActionSettings exported_actions;
-  exported_actions.max_action = set->actions.max_action;
-  if (set->actions != exported_actions)
-    throw DataError(file, "",
-                    "policies trained with " + pipeline::options::actions_in_words(exported_actions),
+  const auto expected = policy_export::exported_actions(set->actions.max_action);
+  if (set->actions != expected)
+    throw DataError(file, "", "policies trained with " + pipeline::options::actions_in_words(expected),
                     pipeline::options::actions_in_words(set->actions));
   const int count = set->options.count();
   if (asked.number && *asked.number >= count)

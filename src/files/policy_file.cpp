@@ -34,6 +34,13 @@ rl::tracking::ActionSettings read_actions(const Npz& npz) {
 
 }  // namespace
 
+rl::tracking::TrackingConfig StoredPolicy::task() const {
+  rl::tracking::TrackingConfig config;
+  config.simulation = simulation;
+  config.actions = actions;
+  return config;
+}
+
 void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored) {
   Npz npz = motion::to_npz(motion::clip_on_body_of(input, stored.motion, stored.motion.frames));
   add_states(kStatePrefix, stored.states, Precision::kFloat32, npz);

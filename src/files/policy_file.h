@@ -21,6 +21,9 @@ struct StoredPolicy {
   physics::SimulationConfig simulation;  ///< in which the policy acts
   rl::tracking::ActionSettings actions;  ///< what its actions mean
   rl::Agent agent;
+
+  /// The tracking task in which it acts.
+  rl::tracking::TrackingConfig task() const;
 };
 
 /// @param input  the motion whose body is written

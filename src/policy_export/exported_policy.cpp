@@ -42,9 +42,7 @@ State disturbed(State state, Random& random) {
 
 /// Observations of the policy along the motion, once without noise and a few times with noise on its actions.
 nn::Matrix<float> observations_of(const files::StoredPolicy& policy) {
-  rl::tracking::TrackingConfig task;
-  task.simulation = policy.simulation;
-  task.actions = policy.actions;
+  const rl::tracking::TrackingConfig task = policy.task();
   const auto clip = rl::tracking::make_tracking_clip(policy.motion, task);
   const auto act = rl::tracking::mean_action({policy.agent});
   Random random(1, {kNoiseStream});
@@ -66,13 +64,17 @@ int ExportedPolicy::widest() const {
   return *std::max_element(sizes.begin(), sizes.end());
 }
 
+rl::tracking::ActionSettings exported_actions(double max_action) {
+  rl::tracking::ActionSettings actions;
+  actions.max_action = max_action;
+  return actions;
+}
+
 ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,
                              const std::optional<nn::AutoEncoder>& coder) {
   if (!policy.motion.scene.flat())
     throw std::invalid_argument("its motion is on a scene, and exported policies know the flat floor alone");
-  rl::tracking::ActionSettings exported;
-  exported.max_action = policy.actions.max_action;
-  if (policy.actions != exported)
+  if (policy.actions != exported_actions(policy.actions.max_action))
     throw std::invalid_argument("its actions have other settings than those of exported policies");
   ExportedPolicy out;
   out.meant = policy;

@@ -38,6 +38,9 @@ struct ExportedPolicy {
 
 inline constexpr int kWidestEver = 4096;  ///< largest width of an exported network
 
+/// The only settings of actions that runtime.h has; it takes any bound.
+rl::tracking::ActionSettings exported_actions(double max_action);
+
 /// @param coder  of an option that has one
 /// @throws std::invalid_argument for networks that runtime.h cannot run, and as fit_spline
 ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,

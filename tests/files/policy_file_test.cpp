@@ -37,9 +37,7 @@ struct PolicyFile : testing::Test {
     write_policy(file, clip, stored);
   }
   static PerBody<Vector3d> end_of(const StoredPolicy& policy) {
-    rl::tracking::TrackingConfig task;
-    task.simulation = policy.simulation;
-    task.actions = policy.actions;
+    const rl::tracking::TrackingConfig task = policy.task();
     return rl::tracking::roll_out(rl::tracking::make_tracking_clip(policy.motion, task), task,
                                   rl::tracking::mean_action({policy.agent}))
         .poses.back()

@@ -400,9 +400,7 @@ TEST_F(Adapt, StoredPolicyReproducesTheManifestsNumbers) {
   adapt_once("taught", config);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   const files::StoredPolicy policy = files::read_policy(out("run") / "policies" / "sway.npz");
-  rl::tracking::TrackingConfig task;
-  task.simulation = policy.simulation;
-  task.actions = policy.actions;
+  const rl::tracking::TrackingConfig task = policy.task();
   const judge::Scores scores = judge::score_simulated(
       policy.motion, rl::tracking::roll_out(rl::tracking::make_tracking_clip(policy.motion, task), task,
                                             rl::tracking::mean_action({policy.agent})));
