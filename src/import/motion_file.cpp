@@ -375,6 +375,11 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
 ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
   const bool simulated = std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
                                      [](const auto& member) { return member.first == kFloorForces; });
+  if (simulated && config.forces_keep_body) {
+    config.mass.reset();
+    config.height.reset();
+    config.standard_body = false;
+  }
   if (!simulated || !(config.fps || config.up || config.scale || config.floor)) return config;
   clip.decisions.emplace_back("simulated: keeps the frame rate, axes, unit and floor of its forces");
   config.fps.reset();

@@ -33,6 +33,7 @@ struct ReadConfig {
   std::optional<double> mass;      ///< of the person, kg
   std::optional<double> height;    ///< stature of the person, m
   bool standard_body = false;      ///< ignore the file's body shape
+  bool forces_keep_body = false;   ///< mass, height and standard_body are not for motions with forces
   std::filesystem::path smplx;     ///< licensed SMPL-X model: joints of the body where betas are SMPL-X's
   std::filesystem::path joint_map;  ///< more joint names for foreign skeletons
   std::string root;  ///< of a BVH with several skeletons: name or number of the root; empty: the person's

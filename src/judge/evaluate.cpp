@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "files/inputs.h"
-#include "files/recorded_forces.h"
 #include "import/world_transform.h"
 #include "judge/force_metrics.h"
 #include "judge/scores.h"
@@ -42,20 +41,11 @@ void meet(motion::Clip& clip, const motion::Clip& known) {
   if (!shift.isZero(0.0) && (apart - shift).norm() < kNear) import::shift_world(-shift, clip);
 }
 
-/// Reads a motion that is judged. One with forces keeps the body to which they belong: mass, height and shape
-/// are for the truth.
-motion::Clip read_judged(const std::filesystem::path& path, import::ReadConfig read) {
-  motion::Clip clip = import::read_motion(path, read);
-  if ((!read.mass && !read.height && !read.standard_body) || !files::recorded_forces(clip)) return clip;
-  read.mass.reset();
-  read.height.reset();
-  read.standard_body = false;
-  return import::read_motion(path, read);
-}
-
 /// A motion and its truth on their scenes. @throws DataError
 std::pair<motion::Clip, motion::Clip> read_clips(const Pair& pair, const import::ReadConfig& read) {
-  motion::Clip clip = read_judged(pair.motion, read);
+  import::ReadConfig judged = read;
+  judged.forces_keep_body = true;  // mass, height and shape are for the truth
+  motion::Clip clip = import::read_motion(pair.motion, judged);
   if (pair.truth.empty())
     throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
   motion::Clip known = import::read_motion(pair.truth, read);
