@@ -1,5 +1,7 @@
 #include "import/body_model.h"
 
+#include "motion/npz_member.h"
+
 namespace mimicx::import {
 namespace {
 
@@ -13,11 +15,8 @@ MatrixXd matrix_of(const Npz& npz, const std::string& key, const std::vector<std
   const NpyArray& array = npz.at(key);
   bool fits = array.type != NpyArray::Type::kText && array.shape.size() == least.size();
   for (std::size_t i = 0; fits && i < least.size(); ++i) fits = array.shape[i] >= least[i];
-  if (!fits) {
-    std::string shape;
-    for (const std::size_t n : array.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(n);
-    throw DataError(npz.path, key, "the array of a SMPL-X model", "shape (" + shape + ")");
-  }
+  if (!fits)
+    throw DataError(npz.path, key, "the array of a SMPL-X model", motion::text_of_shape(array.shape));
   return to_matrix(array);
 }
 

@@ -6,6 +6,7 @@
 
 #include "import/plausibility.h"
 #include "import/world_transform.h"
+#include "motion/npz_member.h"
 
 namespace mimicx::import {
 namespace {
@@ -29,13 +30,11 @@ constexpr Columns kParts[] = {
 void require_layout(const NpyArray& array, const std::string& path) {
   if (array.type == NpyArray::Type::kText) throw DataError(path, "", "numbers", "text");
   if (array.shape.size() == 2 && array.shape[1] == kMotionxColumns && array.shape[0] > 0) return;
-  std::string shape;
-  for (const std::size_t n : array.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(n);
   throw DataError(
       path, "",
       "a Motion-X array of shape (frames, 322), joint positions (frames, 22, 3) or HumanML3D's features "
       "(frames, 263)",
-      "shape (" + shape + ")");
+      motion::text_of_shape(array.shape));
 }
 
 void read_betas(const MatrixXd& values, motion::Clip& clip) {
