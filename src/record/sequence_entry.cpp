@@ -40,40 +40,6 @@ SequenceEnding ending_of(const std::string& name) {
   return static_cast<SequenceEnding>(found - kEndings.begin());
 }
 
-/// The members that every entry has.
-Json members_of(const SequenceEntry& e) {
-  return {{"name", to_utf8(e.name)},
-          {"input", to_utf8(e.input)},
-          {"input_checksum", e.input_checksum},
-          {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
-          {"status", e.ok ? "ok" : "failed"},
-          {"reason", e.reason},
-          {"parts", e.parts},
-          {"method", e.method},
-          {"ending", kEndings[static_cast<int>(e.ending)]},
-          {"frames", e.frames},
-          {"fps", e.fps},
-          {"seed", e.seed},
-          {"samples", e.samples},
-          {"reward_before", number(e.reward_before)},
-          {"reward_after", number(e.reward_after)},
-          {"arrangement", e.arrangement},
-          {"plan", to_json(e.plan)},
-          {"policy", to_json(e.policy)},
-          {"fit", to_json(e.fit)},
-          {"input_metrics", to_json(e.input_metrics)},
-          {"metrics_before", to_json(e.metrics_before)},
-          {"ok_before", e.ok_before},
-          {"metrics", to_json(e.metrics)},
-          {"worse", worse_json(e.worse)},
-          {"audit", to_json(e.audit)},
-          {"preparation", to_json(e.preparation)},
-          {"feasibility", to_json(e.feasibility)},
-          {"decisions", e.decisions},
-          {"notes", e.notes},
-          {"files", checksums_json(e.files)}};
-}
-
 }  // namespace
 
 std::string in_words(const Worsening& worsening) {
@@ -104,7 +70,36 @@ std::string parts_in_words(const SequenceEntry& entry) {
 }
 
 Json to_json(const SequenceEntry& e) {
-  Json json = members_of(e);
+  Json json = {{"name", to_utf8(e.name)},
+               {"input", to_utf8(e.input)},
+               {"input_checksum", e.input_checksum},
+               {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
+               {"status", e.ok ? "ok" : "failed"},
+               {"reason", e.reason},
+               {"parts", e.parts},
+               {"method", e.method},
+               {"ending", kEndings[static_cast<int>(e.ending)]},
+               {"frames", e.frames},
+               {"fps", e.fps},
+               {"seed", e.seed},
+               {"samples", e.samples},
+               {"reward_before", number(e.reward_before)},
+               {"reward_after", number(e.reward_after)},
+               {"arrangement", e.arrangement},
+               {"plan", to_json(e.plan)},
+               {"policy", to_json(e.policy)},
+               {"fit", to_json(e.fit)},
+               {"input_metrics", to_json(e.input_metrics)},
+               {"metrics_before", to_json(e.metrics_before)},
+               {"ok_before", e.ok_before},
+               {"metrics", to_json(e.metrics)},
+               {"worse", worse_json(e.worse)},
+               {"audit", to_json(e.audit)},
+               {"preparation", to_json(e.preparation)},
+               {"feasibility", to_json(e.feasibility)},
+               {"decisions", e.decisions},
+               {"notes", e.notes},
+               {"files", checksums_json(e.files)}};
   if (e.training_ending != SequenceEnding::kNone)
     json["training_ending"] = kEndings[static_cast<int>(e.training_ending)];
   return json;

@@ -282,7 +282,7 @@ void report_distance(const motion::Clip& before, const motion::Clip& after, FitR
 
 void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
   report.lead_frames = state.g[kLead];
-  if (std::abs(report.lead_frames) * 30.0 > kFarAhead * problem.fps)
+  if (std::abs(report.lead_frames) * kReferenceFps > kFarAhead * problem.fps)
     report.notes.push_back(
         formatted("the keypoints are %.1f frames or more %s the motion: are both of the same "
                   "frames of the video?",
