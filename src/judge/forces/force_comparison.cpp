@@ -6,6 +6,7 @@
 #include <map>
 
 #include "audit/audit_file.h"
+#include "audit/chatter.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/number_text.h"
@@ -262,6 +263,53 @@ void compare_pressure(const ComparedForces& c, Named& out) {
   out["copM"] = rms_of(across);
 }
 
+/// Columns: along the foot, the normal of its plane with the shank, and the direction across both.
+Matrix3d axes_of_foot(const PerBody<Vector3d>& joints, int ankle, int knee, int ball) {
+  Matrix3d axes;
+  axes.col(0) = (joints[ball] - joints[ankle]).normalized();
+  axes.col(1) = (joints[knee] - joints[ankle]).cross(axes.col(0)).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
+/// Slip, docs/metrics.md (2), by joints and centres of pressure alone: a foot is the rigid body of ankle,
+/// ball and the plane of the shank. Pressure before the ball moves with the ball. mm per 1/30 s.
+double slip_of(const ComparedForces& c, const FeetSeries& series, double fps) {
+  double sum = 0.0, loads = 0.0;
+  for (int t = 1; t < c.frames(); ++t)
+    for (int foot = 0; foot < 2; ++foot) {
+      const double load = series.force[t][foot].z();
+      const Vector3d& pressure = series.pressure[t][foot];
+      if (!c.counts[t][foot] || load < kStance || !pressure.allFinite()) continue;
+      const int ankle = kLeftAnkle + foot, knee = kLeftKnee + foot, ball = kLeftFoot + foot;
+      const PerBody<Vector3d>&now = series.joints[t], &before = series.joints[t - 1];
+      const Matrix3d axes = axes_of_foot(now, ankle, knee, ball),
+                     axes_before = axes_of_foot(before, ankle, knee, ball);
+      const Vector3d arm = axes.transpose() * (pressure - now[ankle]);
+      const Vector3d way = arm.x() > (now[ball] - now[ankle]).norm()
+                               ? Vector3d(now[ball] - before[ball])
+                               : Vector3d(pressure - before[ankle] - axes_before * arm);
+      sum += load * way.head<2>().norm();
+      loads += load;
+    }
+  return kMm * fps / 30.0 * sum / loads;
+}
+
+/// Chatter of the force on both feet over the runs of frames that count, docs/metrics.md (6), %.
+double chatter_of_runs(const ComparedForces& c, const FeetSeries& series, double fps) {
+  double squares = 0.0;
+  int count = 0;
+  for (int t = 0; t < c.frames(); ++t) {
+    List<double> run;
+    for (; t < c.frames() && c.both(t); ++t) run.push_back(series.total(t).z());
+    const double chatter = audit::chatter_of(run, 1.0, fps);
+    if (std::isnan(chatter)) continue;
+    squares += run.count() * chatter * chatter;
+    count += run.count();
+  }
+  return std::sqrt(squares / count);
+}
+
 /// The part of the feet's horizontal forces along the line between them that cancels, body weights.
 double internal_force(const FeetSeries& series, const Matrix3d& axes, const Vector3d& between, int t) {
   Array<double, 2> along;
@@ -497,7 +545,11 @@ const std::vector<ForceColumn>& force_columns() {
       {"ds", "%.0f", "frames of double support"},
       {"in%", "%.1f", "of them: the measured share of the left foot is in the range of (7) ± 5 points, %"},
       {"wide", "%.1f", "mean width of that range, points"},
-      {"shrE", "%.1f", "share by least effort, (8), RMSE, points"}};
+      {"shrE", "%.1f", "share by least effort, (8), RMSE, points"},
+      {"chaM", "%.1f", "measured chatter of the vertical force on both feet, % of body weight"},
+      {"chaS", "%.1f", "that of the simulation"},
+      {"slipM", "%.2f", "slip of the person's feet by joints and centre of pressure, mm/frame"},
+      {"slipS", "%.2f", "that of the simulation, in the same way"}};
   return columns;
 }
 
@@ -537,7 +589,13 @@ ComparedMotion compare_forces(const audit::SimulatedFrames& motion,
   compare_pressure(c, named);
   compare_double_support(c, sharing, named);
   compare_moments(c, motion, named);
-  if (!measured.joints.empty()) named["mm"] = tracking(c);
+  named["chaM"] = chatter_of_runs(c, c.b, motion.fps);
+  named["chaS"] = chatter_of_runs(c, c.a, motion.fps);
+  if (!measured.joints.empty()) {
+    named["slipM"] = slip_of(c, c.b, motion.fps);
+    named["slipS"] = slip_of(c, c.a, motion.fps);
+    named["mm"] = tracking(c);
+  }
   ComparedMotion compared;
   for (const ForceColumn& column : force_columns()) {
     const auto at = named.find(column.name);
