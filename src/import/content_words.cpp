@@ -14,7 +14,6 @@ struct Opening {
   std::string_view bytes;  ///< in lower case
   const char* words;
 };
-using std::string_view_literals::operator""sv;
 constexpr std::array kOpenings = {
     Opening{"kaydara fbx", "an FBX file (export it as BVH, e.g. from Blender)"},
     Opening{"; fbx", "an FBX file (export it as BVH, e.g. from Blender)"},
@@ -50,9 +49,9 @@ std::string lower(std::string_view text) {
 std::string content_in_words(const std::string& bytes) {
   if (bytes.empty()) return "an empty file";
   const std::string_view start = std::string_view(bytes).substr(0, 256);
-  const bool utf16 =
-      start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff") ||
-      (start.size() > 3 && (start.substr(1, 3) == "\0I\0"sv || start.substr(0, 4) == "\0H\0I"sv));
+  const bool utf16 = start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff") ||
+                     (start.size() > 3 && (start.substr(1, 3) == std::string_view("\0I\0", 3) ||
+                                           start.substr(0, 4) == std::string_view("\0H\0I", 4)));
   if (utf16) return "UTF-16 text (save it as UTF-8)";
   if (start.size() > 1 && start[0] < 10 && start[1] == 'P') return "a C3D file (it has markers, no skeleton)";
   const std::size_t bom = start.starts_with("\xef\xbb\xbf") ? 3 : 0;
