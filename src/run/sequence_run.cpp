@@ -164,7 +164,7 @@ struct Done {
 FollowedParts parts_of(const Method& method, const motion::Reference& reference,
                        const SimulatedSequence& made, const SequenceJob& job,
                        const record::SequenceEntry& entry) {
-  if (entry.ok || !method.parts || entry.ending == record::SequenceEnding::kLimitSeconds) return {};
+  if (entry.ok || !method.parts) return {};
   return method.parts(reference, made.after,
                       after_seconds(job, made.planning_seconds + made.training_seconds));
 }

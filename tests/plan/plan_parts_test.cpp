@@ -10,18 +10,20 @@
 #include "motion/prepare/prepare.h"
 #include "motion/standing_clip.h"
 #include "plan/plan_command.h"
+#include "plan/plan_motion.h"
 #include "program/small_run.h"
 #include "run/results.h"
+#include "run/sequence_run.h"
 
 namespace mimicx::plan {
 namespace {
 
 constexpr int kAll = 150, kJump = 60;
 
-/// Stands, is somewhere else from frame kJump on, and stands there.
-motion::Clip jumping() {
-  motion::Clip clip = motion::standing_clip(kAll);
-  for (int t = kJump; t < kAll; ++t) clip.trans[t].x() += 3.0;
+/// Stands, is somewhere else from a frame on, and stands there.
+motion::Clip jumping(int frames = kAll, int jump = kJump) {
+  motion::Clip clip = motion::standing_clip(frames);
+  for (int t = jump; t < frames; ++t) clip.trans[t].x() += 3.0;
   return clip;
 }
 
@@ -96,6 +98,35 @@ TEST_F(LostMotion, LeavesWhatWasFollowedBeforeAndAfterAsParts) {
   EXPECT_NE(read_file(out / "report.html").find(told), std::string::npos);
   EXPECT_TRUE(judge::evaluate_folders(folder.path / "jump.npz", out / "motions").motions.empty())
       << "parts are no motions of the truth";
+}
+
+// The method of this test says of a lost plan that the time limit ended it, so that no clock decides.
+TEST_F(LostMotion, TimeLimitLeavesTheBeginningAsAPart) {
+  motion::write_clip(folder.path / "jump.npz", jumping(40, 35));
+  run::Method method;
+  method.name = "plan";
+  method.simulation = config.planning.simulation;
+  method.simulate = [&](const motion::Reference& reference, const run::SequenceJob& job) {
+    run::SequenceJob unlimited = job;
+    unlimited.limit_seconds = 0.0;
+    run::SimulatedSequence made = plan_sequence(reference, config.planning, unlimited);
+    made.ending = record::SequenceEnding::kLimitSeconds;
+    return made;
+  };
+  method.parts = [&](const motion::Reference& reference, const rl::tracking::TrackingRollout& lost,
+                     const run::SequenceJob& job) {
+    return followed_parts(reference, config.planning, lost, job);
+  };
+  config.run.limit_seconds = 1e-9;
+  const program::Outcome stopped = program::run_in_context(
+      [&](const record::RunContext& context) { return run::run_sequences(config.run, method, context); });
+  const record::SequenceEntry entry = record::read_manifest(out / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kLimitSeconds);
+  ASSERT_EQ(entry.parts.size(), 1u) << stopped.messages;
+  EXPECT_EQ(entry.parts[0][0], 0);
+  EXPECT_GE(entry.parts[0][1], 29);
+  EXPECT_TRUE(std::filesystem::exists(out / "motions" / "jump.part1.npz"));
+  EXPECT_NE(stopped.messages.find("motions/jump.part1.npz"), std::string::npos) << stopped.messages;
 }
 
 TEST_F(LostMotion, PartsAreTheSameAgainAndGoWithASuccess) {
