@@ -4,6 +4,9 @@
 /// result can be differentiated again.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "nn/tape.h"
 
 namespace mimicx::nn {

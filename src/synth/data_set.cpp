@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/file.h"
+#include "core/random.h"
 #include "motion/clip_file.h"
 
 namespace mimicx::synth {
