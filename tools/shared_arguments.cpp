@@ -1,5 +1,6 @@
 #include "shared_arguments.h"
 
+#include "commands.h"
 #include "core/parallel.h"
 #include "files/scene_file.h"
 
