@@ -77,11 +77,12 @@ int corrupt(const CorruptArguments& a) {
 
 void declare_corrupt(CommandLine& line) {
   const auto a = std::make_shared<CorruptArguments>();
-  Command command =
-      line.add("corrupt", "Make a benchmark of clean motions: truth/ and noisy/, a file per motion",
-               "mimicx corrupt mocap/ --out bench   # then: mimicx adapt bench/noisy --out out/bench\n"
-               "mimicx corrupt walk.bvh --out bench --noise gvhmr,drift=0 --camera moving --seed 3",
-               "A motion's errors depend on the seed and its name alone, not on the other files.");
+  Command command = line.add(
+      "corrupt", "Make a benchmark of clean motions: truth/ and noisy/, a file per motion",
+      "mimicx corrupt mocap/ --out bench   # then: mimicx adapt bench/noisy --out out/bench\n"
+      "mimicx corrupt walk.bvh --out bench --noise gvhmr,drift=0 --camera moving --seed 3",
+      "A motion's errors depend on the seed and its name alone, not on the other files: give a training "
+      "set and a test set with the same names different seeds.");
   command.files("FILE", a->inputs, "clean motions and folders of them");
   command.folder("--out", a->out, "folder to write to").required();
   command.list("--noise", a->noise, "PRESET,NAME=VALUE...",
