@@ -53,7 +53,7 @@ Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, const Sc
     }
   }
   const PerFrame<bool> carried(feet.size(), true);  // a hop of so few frames is 2 cm high
-  motion::stand_through_jumps(feet, carried, 2 * window + 1, scene, contacts);
+  motion::stand_through_jumps(feet, carried, fps, 2 * window + 1, scene, contacts);
   return contacts;
 }
 

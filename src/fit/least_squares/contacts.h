@@ -12,7 +12,7 @@ using Contacts = PerFrame<Array<bool, kFootPoints>>;
 /// estimate has in the side of the next step do not.
 Vector3d sole_middle(const FootPositions& feet, int point);
 
-/// A foot point stands where it is low and slow, and through jumps of the foot that alone carries the body
+/// A foot point stands where it is low and slow, and through jumps of an estimate
 /// (`motion::stand_through_jumps`).
 /// @param settled  true: the motion is on the floor, and heights count from z = 0. False: they count from a
 ///                 low percentile of the heights of the point's own foot

@@ -17,6 +17,8 @@ constexpr double kParabola = 0.1;  ///< s
 constexpr int kShortestStance = 3;
 constexpr double kJumpDistance = 0.1, kJumpHeight = 0.05;  ///< m
 constexpr int kJumpFrames = 3;                             ///< two steps make three frames fast
+constexpr double kInstant = 1.0 / 30.0;                    ///< s
+constexpr double kAtOnce = 0.03, kMostOfTheWay = 0.6;      ///< m; share of the whole way
 constexpr int kPointsPerPart = 2;                          ///< inner and outer
 
 /// Height over the ground (m), speed over it and vertical speed (m/s) of a part of a foot: of the middle of
@@ -110,7 +112,7 @@ PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPose
       for (int k = first; k < first + kPointsPerPart; ++k) stance[t][k] = stands[t];
   }
   const PerFrame<bool> is_carried = carried(character, poses, fps);
-  stand_through_jumps(p, is_carried, kJumpFrames, scene, stance);
+  stand_through_jumps(p, is_carried, fps, kJumpFrames, scene, stance);
   for (int t = 0; t < stance.count(); ++t) {
     if (!is_carried[t] || std::find(stance[t].begin(), stance[t].end(), true) != stance[t].end()) continue;
     const auto unlikely = [&](const PartMotion& part) {
@@ -126,21 +128,25 @@ PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPose
   return stance;
 }
 
-void stand_through_jumps(const PerFrame<SolePositions>& points, const PerFrame<bool>& carried, int longest,
-                         const Scene& scene, PerFrame<Stance>& stance) {
-  const int frames = stance.count();
+void stand_through_jumps(const PerFrame<SolePositions>& points, const PerFrame<bool>& carried, double fps,
+                         int longest, const Scene& scene, PerFrame<Stance>& stance) {
+  const int frames = stance.count(), instant = std::max(1, static_cast<int>(std::lround(kInstant * fps)));
   for (int k = 0; k < kFootPoints; ++k) {
     const int other_foot = k < kPointsPerFoot ? kPointsPerFoot : 0;
+    const auto way = [&](int from, int to) { return (points[to][k] - points[from][k]).norm(); };
     int before = -1;  // last frame in which the point stands
     for (int after = 0; after < frames; ++after) {
       if (!stance[after][k]) continue;
       const int gap = after - before - 1;
-      bool alone = before >= 0 && gap > 0 && gap <= longest &&
-                   (points[after][k] - points[before][k]).norm() < kJumpDistance;
-      for (int t = before; alone && t <= after; ++t)
-        alone =
-            carried[t] && !foot_stands(stance[t], other_foot) && scene.clearance(points[t][k]) < kJumpHeight;
-      for (int t = before + 1; alone && t < after; ++t) stance[t][k] = true;
+      bool stays = before >= 0 && gap > 0 && gap <= longest && way(before, after) < kJumpDistance;
+      bool alone = true, at_once = false;
+      for (int t = before; stays && t <= after; ++t) {
+        stays = carried[t] && scene.clearance(points[t][k]) < kJumpHeight;
+        alone = alone && !foot_stands(stance[t], other_foot);
+        const double step = way(t, std::min(t + instant, after));
+        at_once = at_once || (step > kAtOnce && step > kMostOfTheWay * way(before, after));
+      }
+      for (int t = before + 1; stays && (alone || at_once) && t < after; ++t) stance[t][k] = true;
       before = after;
     }
   }
