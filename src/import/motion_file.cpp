@@ -370,6 +370,22 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
   throw DataError(path.string(), "", kMotions, content_in_words(bytes));
 }
 
+/// Whether nothing is detected in an archive: it has our own layout, or says that this program wrote it.
+bool is_believed(const ReadConfig& o, motion::Clip& clip) {
+  if (clip.body_model == "mimicx" || clip.rest_joints) return true;
+  if (!motion::is_in_our_world(clip)) return false;
+  if (!o.up && !o.scale) clip.decisions.emplace_back("world: z up, metres, as this program wrote it");
+  return true;
+}
+
+/// Of another body than ours the archive says that its world is ours: readers would detect it anew.
+void write_archive(const std::filesystem::path& path, const motion::Clip& clip) {
+  std::vector<std::pair<std::string, NpyArray>> members = {{"joints", motion::joint_positions_member(clip)}};
+  if (clip.body_model != "mimicx")
+    members.emplace_back(motion::kWorldMember, NpyArray::scalar_text(motion::kOurWorld));
+  motion::write_clip(path, clip, members);
+}
+
 /// A simulated motion keeps its frame rate, axes, unit and floor, to which its forces belong: the settings
 /// are for the files beside it, such as the truth that it is compared with.
 ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
@@ -468,7 +484,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));
   const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic ||
                         format == MotionFormat::kMarkers;
-  const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
+  const bool believed = !skeleton && is_believed(config, clip);
   if (!skeleton) {
     choose_body(config, clip);
     settle_scale(config, believed, clip);
@@ -525,7 +541,7 @@ std::string_view written_opening(const std::filesystem::path& path) {
 void write_motion(const std::filesystem::path& path, const motion::Clip& clip) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".npz")
-    motion::write_clip(path, clip, {{"joints", motion::joint_positions_member(clip)}});
+    write_archive(path, clip);
   else if (suffix == ".npy")
     write_motionx(path, clip);
   else if (suffix == ".bvh")

@@ -5,8 +5,8 @@
 /// (bvh.h), DeepMimic JSON (deepmimic.h), OpenSim's markers .trc (opensim/marker_joints.h).
 /// Traps and thresholds: docs/formats.md.
 ///
-/// Files of our own layout (body_model "mimicx") are trusted to be z up and in metres. The user's settings
-/// (`ReadConfig`) override the detection for every file.
+/// Files of our own layout (body_model "mimicx"), and those that `write_motion` marks as ours, are trusted to
+/// be z up and in metres. The user's settings (`ReadConfig`) override the detection for every file.
 #pragma once
 
 #include <filesystem>

@@ -421,6 +421,11 @@ NpyArray joint_positions_member(const Clip& clip) {
   return NpyArray::from_double({clip.rotations.size(), kBodies, 3}, values.data());
 }
 
+bool is_in_our_world(const Clip& clip) {
+  const NpyArray* world = passed_on(clip, kWorldMember);
+  return world && world->text == std::vector<std::string>{kOurWorld};
+}
+
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra) {
   Npz npz;
   const std::size_t frames = clip.rotations.size();

@@ -39,6 +39,12 @@ Scene scene_of(const Npz& npz);
 void add_scene(const Scene& scene, Npz& npz);
 inline constexpr const char* kSceneMember = "scene_plates";
 
+/// The member by which an archive says that it is z up and in metres, and its text. Reading believes it.
+inline constexpr const char* kWorldMember = "mimicx_world";
+inline constexpr const char* kOurWorld = "z up, m";
+/// Whether the archive that a clip was read from says so.
+bool is_in_our_world(const Clip& clip);
+
 /// The members of our own motion file: the standard ones, keypoints and camera,
 /// passed-through members, and `extra`, which replaces members of the same name. `poses_rest` and
 /// `betas_rest` are appended to `poses` and `betas` again. A clip with named arrays of SMPL-X also gets

@@ -302,6 +302,46 @@ TEST(ReadMotion, TrustsOurOwnFiles) {
   EXPECT_EQ(written_and_read(clip).trans, clip.trans);
 }
 
+// A person who lies is turned upright where the axes are detected.
+TEST(ReadMotion, BelievesTheWorldOfFilesThatItWrote) {
+  const motion::Clip clip = foreign("walk");
+  motion::Clip lying = clip;
+  rotate_world(rotation_to_z_up('y').conjugate(), lying);
+  scale_world(4.0, lying);
+  EXPECT_NE(written_and_read(lying).rotations, lying.rotations) << "of another program it is turned";
+  write_motion(scratch("lying.npz"), lying);
+  const motion::Clip back = read_motion(scratch("lying.npz"));
+  EXPECT_EQ(back.rotations, lying.rotations);
+  EXPECT_EQ(back.trans, lying.trans);
+  EXPECT_TRUE(decided(back, "world: z up, metres, as this program wrote it"));
+  EXPECT_FALSE(decided(back, "up axis: "));
+  EXPECT_EQ(written_and_read(back).trans, lying.trans) << "copies say so, too";
+
+  ReadConfig asked;
+  asked.up = 'y';
+  asked.scale = 0.25;
+  asked.fps = 25.0;
+  const motion::Clip told = read_motion(scratch("lying.npz"), asked);
+  EXPECT_LT(largest_joint_distance(told, clip), 1e-9) << "the user's settings count";
+  EXPECT_EQ(told.fps, 25.0);
+}
+
+TEST(ReadMotion, BelievesTheFrameRateOfFilesThatItWrote) {
+  const motion::Clip slow = jumping({60.0, 60.0, 60.0}, 30.0);
+  EXPECT_EQ(written_and_read(slow).fps, 60.0);
+  write_motion(scratch("slow.npz"), slow);
+  EXPECT_EQ(read_motion(scratch("slow.npz")).fps, 30.0);
+}
+
+TEST(WriteMotion, ArchivesOfOtherBodiesSayThatTheirWorldIsOurs) {
+  motion::Clip clip = foreign("wave");
+  write_motion(scratch("foreign.npz"), clip);
+  EXPECT_EQ(read_npz(scratch("foreign.npz")).at("mimicx_world").text, (std::vector<std::string>{"z up, m"}));
+  clip.body_model = "mimicx";
+  write_motion(scratch("own.npz"), clip);
+  EXPECT_FALSE(read_npz(scratch("own.npz")).has("mimicx_world")) << "the body says it";
+}
+
 // `evaluate --truth joints.npy --fps 120` once scored a result as if it had that rate, too.
 TEST(ReadMotion, SimulatedMotionsKeepRateAxesUnitAndFloor) {
   motion::Clip clip = test::standing_clip(12, test::standing_height());
