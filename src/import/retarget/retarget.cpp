@@ -248,6 +248,16 @@ void warn_of_residuals(const RetargetReport& report, motion::Clip& clip) {
                             " on average");
 }
 
+bool knows_body(const KnownBody& known) { return !std::isnan(known.mass) || !std::isnan(known.height); }
+
+/// Gives the fitted shape the mass that is known, or the usual one. Only the girth changes, which moves no
+/// joint.
+void give_mass(const KnownBody& known, motion::Clip& clip) {
+  clip.decisions.push_back(settle_mass(known, clip.betas));
+  const std::string warning = mass_warning(known, clip.betas);
+  if (!warning.empty()) clip.warnings.push_back(warning);
+}
+
 /// Handles a skeleton that `write_bvh` wrote: its joints are the bodies, its offsets those of some β.
 /// @return false for another skeleton
 bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
@@ -294,10 +304,8 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   const BodyLengths lengths = measured_lengths(source);
   if (!config.standard_body) {
     clip.betas = fit_betas(lengths);
-    clip.decisions.push_back(settle_mass(config.known, clip.betas));
-    const std::string warning = mass_warning(config.known, clip.betas);
-    if (!warning.empty()) clip.warnings.push_back(warning);
-  } else if (!std::isnan(config.known.mass) || !std::isnan(config.known.height)) {
+    give_mass(config.known, clip);
+  } else if (knows_body(config.known)) {
     clip.warnings.emplace_back("--mass and --height do not change the standard body (--body standard)");
   }
   const Character character = make_character(clip.betas);
@@ -348,7 +356,10 @@ motion::Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config
   RetargetReport local;
   const bool as_is = !config.standard_body && config.scale == 0.0 && !config.up && config.joint_map.empty();
   local.own = as_is && take_own_skeleton(motion, clip);
-  if (!local.own) retarget_foreign(motion, config, local, clip);
+  if (!local.own)
+    retarget_foreign(motion, config, local, clip);
+  else if (knows_body(config.known))
+    give_mass(config.known, clip);
   for (int t = 0; t < clip.frames(); ++t) {
     bool finite = clip.trans[t].allFinite();
     for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "character/body_words.h"
+#include "core/number_text.h"
 #include "import/body_fit.h"
+#include "import/body_mass.h"
 #include "import/bvh.h"
 #include "import/landmarks.h"
 #include "import/retarget/skeletons.h"
@@ -268,6 +270,28 @@ TEST(Retarget, OwnFilesRoundTripUnchanged) {
       EXPECT_LT((a[t].p_WB[body] - b[t].p_WB[body]).norm(), 1e-6);
       EXPECT_LT(a[t].q_WB[body].angularDistance(b[t].q_WB[body]), 1e-6);
     }
+}
+
+TEST(Retarget, OwnFilesTakeTheMassAndTheHeightThatAreKnown) {
+  const motion::Clip original = test::random_clip(5, 10, 0.8);
+  const SkeletonMotion motion = parse_bvh(format_bvh(original), "own.bvh");
+  RetargetConfig heavy, tall;
+  heavy.known.mass = 80.0;
+  tall.known.height = 1.8;
+  const motion::Clip unknown = retarget(motion);
+  for (const auto& [config, mass] : {std::pair{heavy, 80.0}, {tall, usual_mass(1.8)}}) {
+    RetargetReport report;
+    const motion::Clip clip = retarget(motion, config, &report);
+    EXPECT_TRUE(report.own);
+    EXPECT_NEAR(motion::character_of(clip).total_mass(), mass, 0.1);
+    EXPECT_TRUE(warns(clip.decisions, formatted("mass: %.1f kg", mass)));
+    EXPECT_TRUE(clip.warnings.empty());
+    EXPECT_EQ(clip.rotations, unknown.rotations);
+    EXPECT_EQ(clip.trans, unknown.trans);
+  }
+  EXPECT_FALSE(warns(unknown.decisions, "mass: ")) << "otherwise the body stays as it is";
+  heavy.known.mass = 400.0;
+  EXPECT_TRUE(warns(retarget(motion, heavy).warnings, "mass: "));
 }
 
 TEST(Retarget, UnmappedBodiesFollowTheirParentAndAreReported) {
