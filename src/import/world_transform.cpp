@@ -4,6 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "motion/keypoint_members.h"
+
 namespace mimicx::import {
 namespace {
 
@@ -16,9 +18,8 @@ void place_pelvis(const Place& place, motion::Clip& clip) {
 
 /// world → camera, of a world that `change` (4 × 4) takes to the new one.
 void move_cameras(const Eigen::Matrix4d& change, motion::Clip& clip) {
-  if (!clip.keypoints) return;
-  for (Eigen::Matrix4d& extrinsics : clip.keypoints->extrinsics)
-    extrinsics = (extrinsics * change.inverse()).eval();
+  motion::change_cameras(
+      [&](Eigen::Matrix4d& extrinsics) { extrinsics = (extrinsics * change.inverse()).eval(); }, clip);
 }
 
 }  // namespace
@@ -33,8 +34,8 @@ void rotate_world(const Quaterniond& R, motion::Clip& clip) {
 
 void scale_world(double scale, motion::Clip& clip) {
   for (Vector3d& trans : clip.trans) trans *= scale;
-  if (!clip.keypoints) return;
-  for (Eigen::Matrix4d& extrinsics : clip.keypoints->extrinsics) extrinsics.topRightCorner<3, 1>() *= scale;
+  motion::change_cameras([&](Eigen::Matrix4d& extrinsics) { extrinsics.topRightCorner<3, 1>() *= scale; },
+                         clip);
 }
 
 void shift_world(const Vector3d& shift, motion::Clip& clip) {

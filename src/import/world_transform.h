@@ -2,7 +2,7 @@
 ///
 /// SMPL's trans is not the pelvis' position: pelvis = trans + J0, and the model rotates about its pelvis. A
 /// rotation R of the world therefore gives trans' = R (trans + J0) − J0 (docs/method.md §2). Cameras move
-/// with the world, so keypoints in pixels stay valid.
+/// with the world, so keypoints in pixels stay valid; so does a camera of a file without usable keypoints.
 #pragma once
 
 #include <string>

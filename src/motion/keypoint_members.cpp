@@ -113,6 +113,47 @@ PerFrame<Eigen::Matrix4d> read_extrinsics(const Member& member, std::size_t fram
   return extrinsics;
 }
 
+/// Whether an array has the shape of extrinsics, for any number of frames.
+bool has_shape_of_extrinsics(const NpyArray& array) {
+  const Shape& shape = array.shape;
+  if (array.type == NpyArray::Type::kText || (shape.size() != 2 && shape.size() != 3)) return false;
+  const std::size_t rows = shape[shape.size() - 2];
+  return (rows == 3 || rows == 4) && shape.back() == 4;
+}
+
+/// The matrices of a member that has that shape, world → camera; none where one has another last row.
+std::optional<PerFrame<Eigen::Matrix4d>> cameras_of(const NpyArray& array) {
+  if (!has_shape_of_extrinsics(array)) return std::nullopt;
+  const std::vector<double> values = array.to_double();
+  const std::size_t numbers = 4 * array.shape[array.shape.size() - 2];
+  PerFrame<Eigen::Matrix4d> cameras;
+  cameras.assign(values.size() / numbers, Eigen::Matrix4d::Identity());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    cameras[i / numbers](static_cast<int>(i % numbers / 4), static_cast<int>(i % 4)) = values[i];
+  constexpr double kSame = 0.01;
+  for (const Eigen::Matrix4d& camera : cameras)
+    if (!(camera.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).isZero(kSame)) return std::nullopt;
+  return cameras;
+}
+
+/// The member of these cameras, in the shape that it had.
+NpyArray member_of(const PerFrame<Eigen::Matrix4d>& cameras, const Shape& shape) {
+  std::vector<double> values;
+  const int numbers = 4 * static_cast<int>(shape[shape.size() - 2]);
+  for (const Eigen::Matrix4d& camera : cameras)
+    for (int i = 0; i < numbers; ++i) values.push_back(camera(i / 4, i % 4));
+  return NpyArray::from_double(shape, values.data());
+}
+
+void leave_out_camera(Clip& clip) {
+  std::erase_if(clip.passthrough, [](const auto& member) {
+    return member.first == "camera_intrinsics" || member.first == "camera_extrinsics";
+  });
+  clip.warnings.emplace_back(
+      "camera_extrinsics are no matrices world to camera, (4, 4) or (frames, 4, 4): the camera is left out, "
+      "because the world changes");
+}
+
 }  // namespace
 
 const std::vector<std::string> kKeypointMembers = {"keypoints_2d", "keypoint_names", "camera_intrinsics",
@@ -152,6 +193,18 @@ void add_keypoints(Npz& npz, const Keypoints& k) {
   npz.set("camera_extrinsics", NpyArray::from_double(poses == 1 ? std::vector<std::size_t>{4, 4}
                                                                 : std::vector<std::size_t>{poses, 4, 4},
                                                      values.data()));
+}
+
+void change_cameras(const std::function<void(Eigen::Matrix4d&)>& change, Clip& clip) {
+  if (clip.keypoints)
+    for (Eigen::Matrix4d& camera : clip.keypoints->extrinsics) change(camera);
+  const auto member = std::find_if(clip.passthrough.begin(), clip.passthrough.end(),
+                                   [](const auto& m) { return m.first == "camera_extrinsics"; });
+  if (member == clip.passthrough.end()) return;
+  std::optional<PerFrame<Eigen::Matrix4d>> cameras = cameras_of(member->second);
+  if (!cameras) return leave_out_camera(clip);
+  for (Eigen::Matrix4d& camera : *cameras) change(camera);
+  member->second = member_of(*cameras, member->second.shape);
 }
 
 }  // namespace mimicx::motion

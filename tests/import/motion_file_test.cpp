@@ -412,6 +412,54 @@ TEST(World, RotationTurnsEveryJointAndEveryCamera) {
   }
 }
 
+motion::Clip in_another_world(motion::Clip clip) {
+  rotate_world(Quaterniond(Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized())), clip);
+  scale_world(0.5, clip);
+  shift_world({0.3, -0.2, 5}, clip);
+  return clip;
+}
+
+TEST(World, CamerasWithoutKeypointsMoveAsThoseWithKeypoints) {
+  Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();
+  camera.topLeftCorner<3, 3>() = exp_map(Vector3d(0.3, -0.4, 0.2)).toRotationMatrix();
+  camera.topRightCorner<3, 1>() = Vector3d(1, 2, 3);
+  motion::Clip clip = test::random_clip(7, 6, 0.6), seen = clip;
+  seen.keypoints.emplace().extrinsics = {camera};
+  const Eigen::Matrix4d moved = in_another_world(seen).keypoints->extrinsics[0];
+  for (const int rows : {3, 4}) {
+    const NpyArray one = from_matrix(camera.topRows(rows)), want = from_matrix(moved.topRows(rows));
+    const std::vector<double> once = one.to_double();
+    std::vector<double> twice = once;
+    twice.insert(twice.end(), once.begin(), once.end());
+    const NpyArray two = NpyArray::from_double({2, one.shape[0], 4}, twice.data());
+    for (const NpyArray& member : {one, two}) {
+      clip.passthrough = {{"camera_extrinsics", member}};
+      const motion::Clip back = in_another_world(clip);
+      ASSERT_EQ(back.passthrough[0].second.shape, member.shape);
+      const std::vector<double> values = back.passthrough[0].second.to_double();
+      for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], want.to_double()[i % want.size()], 1e-12) << i;
+      EXPECT_TRUE(back.warnings.empty());
+    }
+  }
+}
+
+TEST(World, CamerasThatCannotMoveAreLeftOutWithAWarning) {
+  Eigen::Matrix4d transposed = Eigen::Matrix4d::Identity();
+  transposed(3, 2) = 6.0;
+  motion::Clip clip = test::random_clip(7, 6, 0.6);
+  for (const NpyArray& bad : {from_matrix(transposed), from_matrix(Eigen::MatrixXd::Zero(6, 7)),
+                              NpyArray::scalar(1.0), NpyArray::scalar_text("none")}) {
+    clip.passthrough = {{"camera_intrinsics", from_matrix(Matrix3d::Identity())},
+                        {"camera_extrinsics", bad},
+                        {"labels", NpyArray::scalar_text("walk")}};
+    const motion::Clip back = in_another_world(clip);
+    ASSERT_EQ(back.passthrough.size(), 1u);
+    EXPECT_EQ(back.passthrough[0].first, "labels");
+    EXPECT_EQ(back.warnings.size(), 1u) << "one, however often the world changes";
+  }
+}
+
 TEST(Motionx, NumbersThatNothingUsesNeedNotBeFinite) {
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(5, 322);
   values(2, 200) = NAN;  // the face
