@@ -52,6 +52,11 @@ bool decided(const char* line, const motion::Clip& clip) {
   return std::find(clip.decisions.begin(), clip.decisions.end(), line) != clip.decisions.end();
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 void require_sense(const ReadConfig& o) {
   const auto require = [](bool sense, const char* what) {
     if (!sense) throw std::invalid_argument(what);
@@ -69,6 +74,20 @@ KnownBody known_body(const ReadConfig& o) {
   if (o.mass) known.mass = *o.mass;
   if (o.height) known.height = *o.height;
   return known;
+}
+
+/// The gender that a text names: "female", "male", or none.
+std::string gender_in(const std::string& text) {
+  for (const char* gender : {"female", "male"})  // the second is part of the first
+    if (lower_case(text).find(gender) != std::string::npos) return gender;
+  return "";
+}
+
+/// A male and a female model have shapes of their own, so betas of one mean nothing in another.
+void warn_of_gender(const std::filesystem::path& model, motion::Clip& clip) {
+  const std::string gender = gender_in(clip.gender), file = model.filename().string();
+  if (gender.empty() || gender == gender_in(file)) return;
+  clip.warnings.push_back("the betas are of the " + gender + " model: " + file + " must be that model");
 }
 
 /// Chooses the body: the standard one, the joints of the licensed model, or the file's own body.
@@ -94,6 +113,7 @@ void choose_body(const ReadConfig& o, motion::Clip& clip) {
     clip.rest_joints = joints;
     std::erase(clip.warnings, motion::foreign_betas_warning(clip.body_model));
     clip.decisions.push_back("body: joints of " + o.smplx.filename().string() + " at the file's betas");
+    warn_of_gender(o.smplx, clip);
   } else if (foreign) {
     clip.decisions.push_back("body: the standard one, the file's model is " + clip.body_model);
   }
@@ -247,11 +267,6 @@ void require_near(const std::filesystem::path& path, const motion::Clip& clip) {
     if (!(clip.trans[t].cwiseAbs().maxCoeff() < kFarthest))
       throw DataError(path.string(), "frame " + std::to_string(t), "a place within 100 km of the origin",
                       short_number(clip.trans[t].cwiseAbs().maxCoeff()) + " m");
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 /// The usual name of a unit of length.

@@ -80,6 +80,29 @@ TEST(BodyModel, MotionUsesTheJointsOfItsOwnBody) {
   for (int j = 0; j < kBodies; ++j) EXPECT_EQ(again[1].p_WB[j], poses[1].p_WB[j]);
 }
 
+TEST(BodyModel, BetasOfAnotherGenderThanTheModelGiveAWarning) {
+  const auto warnings = [](const std::string& gender, const std::string& model) {
+    write_npz(scratch(model), SmallModel().file());
+    motion::Clip clip = test::random_clip(3, 4, 0.4);
+    clip.body_model = "smplx";
+    clip.betas = kSomeBetas;
+    clip.gender = gender;
+    motion::write_clip(scratch("clip.npz"), clip);
+    ReadConfig config;
+    config.smplx = scratch(model);
+    return read_motion(scratch("clip.npz"), config).warnings;
+  };
+  for (const std::string gender : {"male", "female"})
+    EXPECT_EQ(
+        warnings(gender, "model.npz"),
+        std::vector<std::string>{"the betas are of the " + gender + " model: model.npz must be that model"});
+  EXPECT_EQ(warnings("male", "SMPLX_FEMALE.npz").size(), 1u);
+  EXPECT_EQ(warnings("female", "SMPLX_MALE.npz").size(), 1u);
+  EXPECT_TRUE(warnings("Male", "SMPLX_MALE.npz").empty()) << "the name of the model says it";
+  EXPECT_TRUE(warnings("female", "smplx_female.npz").empty());
+  EXPECT_TRUE(warnings("neutral", "model.npz").empty());
+}
+
 TEST(BodyModel, TheStandardBodyKeepsThePelvisWhereItIs) {
   motion::Clip clip = test::random_clip(3, 4, 0.4);
   clip.betas[0] = 2.0;
