@@ -303,7 +303,7 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
                                          : kAssumedRate);
   if (used < padded)
     motion.decisions.push_back("frames: the last " + std::to_string(padded - used) + " of " +
-                               std::to_string(padded) + " are empty (padding) and are left out");
+                               std::to_string(padded) + std::string(kPaddingLeftOut));
   return motion;
 }
 

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/npz/npy_array.h"
 #include "import/retarget/skeleton.h"
@@ -31,6 +32,8 @@ inline constexpr double kPositionsFps = 20.0;
 /// The decision of files that tell no frame rate.
 inline constexpr const char* kAssumedRate =
     "frame rate: 20 fps, assumed: the file tells none, motion generators use it; --fps overrides";
+/// The end of the decision about frames that are left out because they are empty.
+inline constexpr std::string_view kPaddingLeftOut = " are empty (padding) and are left out";
 inline constexpr std::size_t kHumanMl3dFeatures = 263;
 
 /// Whether an array of this shape is in one of the two formats.

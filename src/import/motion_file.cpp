@@ -302,10 +302,11 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   clip.decisions.insert(clip.decisions.begin(), "format: " + format);
   const bool assumed = !o.fps && decided(kAssumedRate, clip);
   const std::string fps = rate_text(o.fps.value_or(clip.fps)) + " frames per second";
-  if (!o.verbose)
-    clip.summary =
-        summary_of(format, report, o.standard_body, fps + (assumed ? " (assumed: --fps overrides)" : ""));
-  if (!o.verbose && decided(kTPoseRemoved, clip)) clip.summary.emplace_back(kTPoseRemoved);
+  if (o.verbose) return clip;
+  clip.summary =
+      summary_of(format, report, o.standard_body, fps + (assumed ? " (assumed: --fps overrides)" : ""));
+  for (const std::string& line : clip.decisions)  // about frames that are left out
+    if (line == kTPoseRemoved || line.ends_with(kPaddingLeftOut)) clip.summary.push_back(line);
   return clip;
 }
 

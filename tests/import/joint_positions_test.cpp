@@ -345,6 +345,17 @@ TEST(JointPositions, AnotherOrderOfTheJointsIsRefused) {
   }
 }
 
+TEST(JointPositions, PaddingThatIsLeftOutIsToldInTheSummary) {
+  NpyArray padded = positions_of(truth("walk"));
+  std::vector<double> values = padded.to_double();
+  values.resize(values.size() + 7 * values.size() / padded.shape[0], 0.0);
+  padded.shape[0] += 7;
+  const motion::Clip clip = read_positions(NpyArray::from_double(padded.shape, values.data()));
+  const std::string line =
+      "frames: the last 7 of " + std::to_string(padded.shape[0]) + " are empty (padding) and are left out";
+  EXPECT_EQ(std::count(clip.summary.begin(), clip.summary.end(), line), 1);
+}
+
 TEST(JointPositions, PaddingAtTheEndIsLeftOut) {
   const NpyArray positions = positions_of(truth("walk"));
   for (const NpyArray& whole : {positions, features_of(positions)})
