@@ -188,7 +188,7 @@ bool is_plausible_at(double fps, const motion::Clip& clip) {
 }
 
 void settle_fps(const ReadConfig& o, bool believed, motion::Clip& clip) {
-  const bool assumed = decided(kAssumedRate, clip);
+  const bool motionx = decided(kMotionxFormat, clip), assumed = motionx || decided(kAssumedRate, clip);
   if (o.fps) {
     std::erase(clip.decisions, kAssumedRate);
     clip.decisions.push_back(
@@ -200,8 +200,10 @@ void settle_fps(const ReadConfig& o, bool believed, motion::Clip& clip) {
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  const std::string given =
-      "frame rate: " + rate_text(clip.fps) + (assumed ? " fps, as assumed" : " fps, as given");
+  const std::string given = "frame rate: " + rate_text(clip.fps) +
+                            (motionx   ? " fps, that of Motion-X, assumed: the file tells none"
+                             : assumed ? " fps, as assumed"
+                                       : " fps, as given");
   const std::string falls = !fall ? ""
                                   : counted(fall->flights, "flight") + ", in which the body falls with " +
                                         short_number(fall->acceleration) + " m/s² at the file's rate";

@@ -107,7 +107,7 @@ motion::Clip motionx_from(const NpyArray& array, const std::string& name, const 
   clip.name = name;
   clip.fps = kMotionXFps;
   clip.body_model = "smplx";
-  clip.decisions.emplace_back("format: Motion-X (30 fps, SMPL-X)");
+  clip.decisions.emplace_back(kMotionxFormat);
   for (Index t = 0; t < values.rows(); ++t) {
     clip.rotations.emplace_back();
     for (int j = 0; j < kBodies; ++j) clip.rotations.back()[j] = values.row(t).segment<3>(kBody + 3 * j);

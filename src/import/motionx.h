@@ -16,6 +16,8 @@ namespace mimicx::import {
 inline constexpr std::string_view kMotionxOpening("\x93NUMPY\x01\x00\xb6\x00", 10);
 
 inline constexpr std::size_t kMotionxColumns = 322;
+/// The decision about the format, whose files tell no frame rate.
+inline constexpr const char* kMotionxFormat = "format: Motion-X (30 fps, SMPL-X)";
 
 /// @throws DataError naming the file for another shape, for text, and for numbers that are not finite
 /// @param may_scale  look for the AIST scale and for centimetres; false where the user names a scale

@@ -537,6 +537,18 @@ TEST(Motionx, UpOptionNamesAnAxisOfTheFile) {
   EXPECT_LT(largest_joint_distance(read_motion(path, asked), walk), 1e-9);
 }
 
+TEST(Motionx, TheFrameRateIsSaidToBeThatOfTheFormat) {
+  const fs::path path = scratch("walk.npy");
+  write_motion(path, foreign("walk"));
+  const motion::Clip read = read_motion(path);
+  EXPECT_TRUE(decided(read, "frame rate: 30 fps, that of Motion-X, assumed: the file tells none"));
+  EXPECT_FALSE(decided(read, "as given"));
+  ReadConfig asked;
+  asked.fps = 60.0;
+  EXPECT_TRUE(decided(read_motion(path, asked), "frame rate: 60 fps, as asked for"));
+  EXPECT_FALSE(decided(read_motion(path, asked), "the file says"));
+}
+
 TEST(Motionx, RejectsOtherShapes) {
   for (const Eigen::MatrixXd& bad : {Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 321)), Eigen::MatrixXd(0, 322)})
     EXPECT_THROW(motionx_from(from_matrix(bad), "m", "m.npy"), DataError);
