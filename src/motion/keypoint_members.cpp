@@ -14,13 +14,15 @@ namespace {
 using Shape = std::vector<std::size_t>;
 
 /// The file's names, or without any the names of the set with this number of keypoints. Unreadable names
-/// (pickled ones) are an error.
+/// (pickled ones, numbers) are an error.
 std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& points, Clip& clip) {
   const auto& unread = npz.unsupported();
   const bool unreadable = std::any_of(unread.begin(), unread.end(),
                                       [](const auto& member) { return member.first == "keypoint_names"; });
   if (npz.has("keypoint_names") || unreadable) {
-    std::vector<std::string> names = npz.at("keypoint_names").text;
+    const NpyArray& member = npz.at("keypoint_names");
+    if (member.type != NpyArray::Type::kText) throw DataError(npz.path, "keypoint_names", "text", "numbers");
+    std::vector<std::string> names = member.text;
     for (std::string& name : names) name = known_keypoint_name(name);
     return names;
   }

@@ -536,6 +536,12 @@ TEST(ClipFile, RejectsUnreadableKeypointNames) {
   EXPECT_THROW(clip_from(npz, "pickled"), UnsupportedArray);
 }
 
+TEST(ClipFile, RejectsNumbersAsKeypointNames) {
+  Npz npz = with_unnamed_keypoints(3);
+  npz.set("keypoint_names", test::counted(1, 3));
+  expect_refusal(npz, "keypoint_names: expected text, found numbers");
+}
+
 TEST(ClipFile, RejectsUnnamedKeypointsOfUnknownCountInOneLine) {
   for (const std::size_t count : {1u, 16u, 25u, 134u}) {
     const std::string message = refusal(with_unnamed_keypoints(count));
