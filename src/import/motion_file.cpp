@@ -348,11 +348,19 @@ bool is_pickled(const std::string& bytes, const std::filesystem::path& path) {
   return suffix == ".pt" || suffix == ".pth" || suffix == ".pkl" || bytes.starts_with("\x80");
 }
 
+/// Archives alone can have several people, and their reader counts them.
+void require_person(MotionFormat format, const std::filesystem::path& path, const ReadConfig& o) {
+  if (!o.person || *o.person == 1 || format == MotionFormat::kNpz || format == MotionFormat::kUnknown) return;
+  throw DataError(path.string(), "", "people 1 to " + std::to_string(*o.person), "one person");
+}
+
 motion::Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& o) {
   const std::string name = path.stem().string();
   if (is_pickled(bytes, path))
     throw DataError(path.string(), "", kMotions, "a Python pickle: " + std::string(kConverter));
-  switch (recognise(bytes)) {
+  const MotionFormat format = recognise(bytes);
+  require_person(format, path, o);
+  switch (format) {
     case MotionFormat::kNpz: {
       motion::Clip clip = motion::clip_from(parse_npz(bytes, path.string()), name, {o.fps, o.person});
       clip.decisions.insert(clip.decisions.begin(), "format: AMASS-like npz, body model " + clip.body_model);

@@ -368,6 +368,25 @@ TEST(WriteMotion, EveryArchiveHasTheJointsOfItsBody) {
             motion::joint_positions_member(clip).to_double());
 }
 
+TEST(ReadMotion, TheSecondPersonOfAFileOfOneIsRefused) {
+  const motion::Clip clip = foreign("wave");
+  for (const char* name : {"one.npz", "one.npy", "one.bvh"}) {
+    write_motion(scratch(name), clip);
+    ReadConfig config;
+    config.person = 1;
+    EXPECT_EQ(read_motion(scratch(name), config).frames(), clip.frames()) << name;
+    config.person = 2;
+    try {
+      read_motion(scratch(name), config);
+      ADD_FAILURE() << name;
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find(": expected people 1 to 2, found one person"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(ReadMotion, RejectsInvalidOptions) {
   const motion::Clip clip = foreign("wave");
   ReadConfig up, scale, fps;
