@@ -253,8 +253,9 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
   if (const std::string doubt = scene_doubt(clip); !doubt.empty()) clip.warnings.push_back(doubt);
 }
 
-/// The simulation has single precision, which resolves 2 mm at 20 km. A motion that begins far from the
-/// origin is moved there, by a multiple of 100 m: motions that belong together stay together.
+/// The simulation has single precision, which resolves 2 mm at 20 km. A motion that begins over 50 m from the
+/// origin is moved there, by a multiple of 100 m. Each is moved by itself: motions that belong together stay
+/// together only where they begin on the same side of such an edge.
 void settle_place(motion::Clip& clip) {
   const Vector3d hundreds = (clip.trans.front() / kMove).array().round();
   const Vector3d shift(0.0 - kMove * hundreds.x(), 0.0 - kMove * hundreds.y(), 0.0);  // not -0
