@@ -37,7 +37,7 @@ def product(a, b):
 
 def changed(motion, tilt, travel):
     """The world's rotation vector, then the factors of the pelvis' way."""
-    out = {k: v for k, v in motion.items() if not k.startswith(("keypoint", "camera")) and k != "joints"}
+    out = {k: v for k, v in motion.items() if not k.startswith(("keypoint", "camera", "mimicx_world")) and k != "joints"}
     q, pelvis = quaternion(np.array(tilt, float)), motion["joints"][:, 0]
     rest, root = (pelvis - motion["trans"])[0], quaternion(motion["poses"][:, :3])
     v = np.concatenate([np.zeros((len(pelvis), 1)), pelvis], 1)
