@@ -399,12 +399,12 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   const record::RunFolder folder =
       list ? record::shard_folder(config.out, *config.shard) : record::RunFolder{config.out};
   const RunLocks locks(folder);
-  if (list) record::agree_on(*list, folder);
   RunState run = open_run(config, method, context, folder, list);
   std::vector<std::string> protect = config.protect;
   protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
   record::Outputs outputs(protect, config.force);
   claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
+  if (list) record::agree_on(*list, folder);  // after all that may refuse the run
   folder.create();
   if (config.map.keep) config.map.keep(folder, context.messages);
   write_records(run);

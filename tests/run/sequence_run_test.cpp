@@ -8,6 +8,8 @@
 #include "motion/standing_clip.h"
 #include "plan/plan_command.h"
 #include "program/small_run.h"
+#include "record/outputs.h"
+#include "record/shard_list.h"
 #include "report/run_report.h"
 #include "run/merge.h"
 #include "run/results.h"
@@ -90,6 +92,21 @@ TEST_F(ParallelRun, MergeReusesTheReportClipsOfTheShards) {
   std::erase_if(merged, [](const auto& file) { return file.first.starts_with("shards/"); });
   std::erase_if(whole, [](const auto& file) { return file.first.starts_with("references/"); });
   EXPECT_TRUE(merged == whole);
+}
+
+TEST_F(ParallelRun, RefusedShardLeavesNoAgreement) {
+  inputs = {inputs[4]};
+  const std::filesystem::path out = folder.path / "run", foreign = out / "motions" / "stand4.npz";
+  std::filesystem::create_directories(foreign.parent_path());
+  std::ofstream(foreign) << "years of work";
+  plan::PlanMotionsConfig config = planning("run", 1);
+  config.run.shard = {0, 2};
+  EXPECT_THROW(run(config), record::OutputRefused);
+  EXPECT_FALSE(std::filesystem::exists(record::shard_list_path(out)));
+  std::filesystem::remove(foreign);
+  config.run.shard = {0, 3};
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood) << "nothing was agreed on";
+  EXPECT_TRUE(std::filesystem::exists(record::shard_list_path(out)));
 }
 
 TEST_F(ParallelRun, FailingInputStopsNoOther) {
