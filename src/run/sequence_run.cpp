@@ -48,13 +48,12 @@ PreparedMotion prepared(const RunConfig& config, const std::string& input, int t
   return prepare_motion(input, config.read, config.correction, threads);
 }
 
-/// Why an input cannot be read; empty where it can.
-std::string reading_error(const RunConfig& config, const std::string& input) {
+bool is_readable(const RunConfig& config, const std::string& input) {
   try {
     import::read_motion(input, config.read);
-    return "";
-  } catch (const std::exception& error) {
-    return reason_of(error);
+    return true;
+  } catch (const std::exception&) {
+    return false;
   }
 }
 
@@ -153,11 +152,11 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
 /// The outcome of the work on a motion.
 struct Done {
   record::SequenceEntry entry;
-  std::size_t told = 0;      ///< notes of the entry that were printed already
-  bool kept = false;         ///< the earlier result is kept
-  std::string unread;        ///< it is kept because the input could not be read: why
-  bool interrupted = false;  ///< only the time is recorded
-  record::Timing timing;     ///< of this time
+  std::size_t told = 0;                   ///< notes of the entry that were printed already
+  bool kept = false;                      ///< the earlier result is kept
+  std::optional<std::string> error = {};  ///< that the earlier result outlived
+  bool interrupted = false;               ///< only the time is recorded
+  record::Timing timing;                  ///< of this time
 };
 
 /// What can be followed of a motion that is no success.
@@ -208,16 +207,25 @@ void remove_success(const record::RunFolder& folder, const std::string& name) {
     std::filesystem::remove(folder.root / record::RunFolder::motion_name(name, true), ignored);
 }
 
-/// All the work on one input; an error becomes its reason. @param there  its earlier result, or null
+/// Whether an earlier result stays after an error: there is one, and its input is the same or cannot be read
+/// now. @param there  the earlier result, or null
+bool outlives_an_error(const RunConfig& config, const std::string& input,
+                       const record::SequenceEntry* there) {
+  if (!there || there->output.empty()) return false;
+  return record::checksum_or_none(input) == there->input_checksum || !is_readable(config, input);
+}
+
+/// All the work on one input. An error becomes its reason, or is told where an earlier result stays.
+/// @param there  that result, or null
 Done work_on(const Worker& worker, const std::string& input, const record::SequenceEntry* there) {
   Done done;
   try {
     done.kept = !begin_entry(worker, input, there, done.entry);
     if (!done.kept) do_sequence(worker, done);
   } catch (const std::exception& error) {
-    if (there && there->finished()) done.unread = reading_error(worker.run.config, input);
-    if (!done.unread.empty()) {  // which says nothing about its result
+    if (outlives_an_error(worker.run.config, input, there)) {
       done.entry = *there;
+      done.error = reason_of(error);
       return done;
     }
     done.entry.ok = false;
@@ -351,8 +359,8 @@ class ParallelRun {
 
   void publish(const std::string& input, const Done& done, const Worker& worker) {
     const record::SequenceEntry& entry = done.entry;
-    if (!done.unread.empty()) {
-      run_.context.progress.finish(entry.name + ": failed: " + done.unread + "; its earlier result is kept");
+    if (done.error) {
+      run_.context.progress.finish(entry.name + ": failed: " + *done.error + "; its earlier result is kept");
       all_good_ = false;
       if (jobs_ > 1) run_.context.progress.update(++finished_, "");
       return;

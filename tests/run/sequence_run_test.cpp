@@ -151,6 +151,49 @@ TEST_F(ParallelRun, InputThatCannotBeReadKeepsItsResultAndSaysSo) {
   }
 }
 
+// A file where a folder has to be, in the place of a full disk.
+TEST_F(ParallelRun, ErrorInWorkOnAFinishedMotionKeepsItsResultAndSaysSo) {
+  inputs = {inputs[4]};
+  const std::filesystem::path out = folder.path / "run";
+  plan::PlanMotionsConfig config = planning("run", 1);
+  run(config);
+  const auto made = results("run");
+  const auto keeps = [&](const std::string& in_the_way) {
+    std::ofstream(out / in_the_way) << "in the way";
+    const program::Outcome outcome = run(config);
+    EXPECT_EQ(outcome.value, record::RunOutcome::kSomeFailed);
+    EXPECT_NE(outcome.messages.find("stand4: failed: "), std::string::npos) << outcome.messages;
+    EXPECT_NE(outcome.messages.find("; its earlier result is kept"), std::string::npos) << outcome.messages;
+    std::filesystem::remove(out / in_the_way);
+  };
+  config.run.substeps = true;  // for which the motion is done again
+  keeps("substeps");
+  EXPECT_TRUE(results("run") == made);
+  config.run.substeps = false;
+  std::filesystem::remove_all(out / "inputs");  // which is repaired
+  keeps("inputs");
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  EXPECT_TRUE(results("run") == made);
+}
+
+TEST_F(ParallelRun, InputThatIsAwayKeepsAResultThatTheTimeLimitEnded) {
+  inputs = {(folder.path / "own.npz").string()};
+  motion::write_clip(inputs[0], motion::standing_clip(8));
+  plan::PlanMotionsConfig config = planning("run", 1);
+  config.run.limit_seconds = 1e-9;
+  run(config);
+  const auto made = results("run");
+  const record::SequenceEntry entry =
+      record::read_manifest(folder.path / "run" / "manifest.json").sequences.at(0);
+  ASSERT_EQ(entry.ending, record::SequenceEnding::kLimitSeconds);
+  ASSERT_TRUE(made.contains(entry.output));
+  std::filesystem::remove(inputs[0]);
+  const program::Outcome gone = run(config);
+  EXPECT_EQ(gone.value, record::RunOutcome::kSomeFailed);
+  EXPECT_NE(gone.messages.find("; its earlier result is kept"), std::string::npos) << gone.messages;
+  EXPECT_TRUE(results("run") == made);
+}
+
 TEST_F(ParallelRun, PrintsTheMessagesOfAMotionTogether) {
   const std::string said = run(planning("run", 3)).messages;
   for (int k = 0; k < 5; ++k) {
