@@ -1,5 +1,7 @@
 #include "run/sequence_result.h"
 
+#include <system_error>
+
 #include "audit/audit.h"
 #include "audit/audit_summary.h"
 #include "audit/load_sharing/load_sharing.h"
@@ -72,6 +74,15 @@ record::FileChecksums checksums_of(const record::RunFolder& folder, const record
 }
 
 }  // namespace
+
+void remove_result(const record::RunFolder& folder, const record::SequenceEntry& entry) {
+  std::error_code ignored;
+  const std::filesystem::path motion = folder.root / entry.output;
+  if (entry.output.empty() || !std::filesystem::exists(motion, ignored)) return;
+  for (const std::filesystem::path& file : folder.files_of(entry.name))
+    if (file != motion) std::filesystem::remove(file, ignored);
+  std::filesystem::remove(motion, ignored);
+}
 
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry) {
   if (needs.frames.empty()) return;

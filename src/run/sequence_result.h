@@ -17,6 +17,11 @@ struct JudgedMotion : PreparedMotion {
   judge::InputScores input_scores;
 };
 
+/// Removes all files of an entry whose input has changed, so that none of them is taken for the new input's.
+/// The motion goes last, and nothing is done without it: work that was stopped later finds the files that it
+/// left for the new input. No input is among them (claim_run).
+void remove_result(const record::RunFolder& folder, const record::SequenceEntry& entry);
+
 /// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
 

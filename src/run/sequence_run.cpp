@@ -168,12 +168,18 @@ FollowedParts parts_of(const Method& method, const motion::Reference& reference,
                       after_seconds(job, made.planning_seconds + made.training_seconds));
 }
 
-/// Prepare → simulate → judge and write.
-void do_sequence(const Worker& worker, Done& done) {
+/// Whether there is an earlier result, of another input. @param there  it, or null
+bool is_of_another_input(const record::SequenceEntry* there, const record::SequenceEntry& entry) {
+  return there && there->input_checksum != entry.input_checksum;
+}
+
+/// Prepare → simulate → judge and write. @param there  the earlier result, or null
+void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done& done) {
   const RunState& run = worker.run;
   record::SequenceEntry& entry = done.entry;
   const double started = record::steady_seconds();
   const JudgedMotion motion = prepare_sequence(worker, entry);
+  if (is_of_another_input(there, entry)) remove_result(run.folder, *there);
   done.told = entry.notes.size();
   const SequenceJob job{
       entry.name,     entry.input_checksum,     run.folder,   run.config.substeps, run.config.gains,
@@ -221,7 +227,7 @@ Done work_on(const Worker& worker, const std::string& input, const record::Seque
   Done done;
   try {
     done.kept = !begin_entry(worker, input, there, done.entry);
-    if (!done.kept) do_sequence(worker, done);
+    if (!done.kept) do_sequence(worker, there, done);
   } catch (const std::exception& error) {
     if (outlives_an_error(worker.run.config, input, there)) {
       done.entry = *there;

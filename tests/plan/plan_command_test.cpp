@@ -225,6 +225,25 @@ TEST_F(PlanMotions, IgnoresThePlanOfAnotherInput) {
   EXPECT_EQ(entry("run").frames, 25);
 }
 
+TEST_F(PlanMotions, ChangedInputLeavesNoFileOfItsOldResultAlsoAfterAnInterruption) {
+  PlanMotionsConfig config = planning("run", {stand});
+  config.run.substeps = config.run.gains = true;
+  run(config);
+  // As an input with keypoints and a training leave them.
+  for (const char* name :
+       {"fits/stand.npz", "policies/stand.npz", "training/stand.csv", "training/stand.falls.csv"}) {
+    make_folder((out("run") / name).parent_path());
+    write_file_atomically(out("run") / name, "of the old input");
+  }
+  motion::write_clip(stand, motion::standing_clip(30));
+  config.run.substeps = config.run.gains = false;
+  EXPECT_EQ(run(config, 2).value, record::RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  config.run.out = out("fresh");
+  run(config);
+  EXPECT_TRUE(run::results_of(out("run")) == run::results_of(out("fresh")));
+}
+
 TEST_F(PlanMotions, FailedPlanSaysWhereAndWhyInManifestFeasibilityAndReportAndOthersFinish) {
   EXPECT_EQ(run(planning("run", {lean, stand})).value, record::RunOutcome::kSomeFailed);
   const record::SequenceEntry lost = entry("run", 0), done = entry("run", 1);
