@@ -206,11 +206,13 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   done.timing.seconds = record::steady_seconds() - started;
 }
 
-/// Removes the motion of an earlier run of the same name: `motions/` holds the successes of the manifest.
-void remove_success(const record::RunFolder& folder, const std::string& name) {
+/// Removes the motion and the parts of an earlier run of the same name: `motions/` holds those of the
+/// manifest.
+void remove_motions(const record::RunFolder& folder, const std::string& name) {
+  if (name.empty()) return;
   std::error_code ignored;
-  if (!name.empty())
-    std::filesystem::remove(folder.root / record::RunFolder::motion_name(name, true), ignored);
+  std::filesystem::remove(folder.root / record::RunFolder::motion_name(name, true), ignored);
+  for (int k = 1; k <= record::kMostParts; ++k) std::filesystem::remove(folder.part(name, k), ignored);
 }
 
 /// Whether an earlier result stays after an error: there is one, and its input is the same or cannot be read
@@ -237,7 +239,9 @@ Done work_on(const Worker& worker, const std::string& input, const record::Seque
     done.entry.ok = false;
     done.entry.reason = reason_of(error);
     done.entry.output.clear();  // so that the same command tries again
-    remove_success(worker.run.folder, done.entry.name);
+    done.entry.parts.clear();
+    if (is_of_another_input(there, done.entry)) remove_result(worker.run.folder, *there);
+    remove_motions(worker.run.folder, done.entry.name);
   }
   return done;
 }

@@ -129,6 +129,19 @@ TEST_F(LostMotion, TimeLimitLeavesTheBeginningAsAPart) {
   EXPECT_NE(stopped.messages.find("motions/jump.part1.npz"), std::string::npos) << stopped.messages;
 }
 
+TEST_F(LostMotion, ChangedInputThatFailsLeavesNoFileOfTheOldOne) {
+  motion::write_clip(folder.path / "jump.npz", jumping(40, 35));
+  run();
+  ASSERT_TRUE(std::filesystem::exists(out / "motions" / "jump.part1.npz"));
+  motion::write_clip(folder.path / "jump.npz", motion::standing_clip(1));
+  EXPECT_EQ(run().value, record::RunOutcome::kSomeFailed);
+  for (const auto& [name, bytes] : run::results_of(out))
+    EXPECT_EQ(name.find("jump"), std::string::npos) << name;
+  const record::SequenceEntry entry = record::read_manifest(out / "manifest.json").sequences.at(0);
+  EXPECT_TRUE(entry.output.empty() && entry.parts.empty());
+  EXPECT_NE(entry.reason.find("at least 2 frames"), std::string::npos) << entry.reason;
+}
+
 TEST_F(LostMotion, PartsAreTheSameAgainAndGoWithASuccess) {
   run();
   const auto files = run::results_of(out);
