@@ -47,12 +47,15 @@ files::StoredPlan make(const motion::Reference& reference, const physics::Simula
   return stored;
 }
 
-/// Writes the feedback gains of a successful plan, on request, and removes those of an older plan.
+/// Writes the feedback gains of a successful plan, on request, and removes those that are not wanted. Gains
+/// of the same plan stay where the work on them is stopped.
 void leave_gains(const motion::Reference& reference, const control::PlanConfig& config,
                  const files::StoredPlan& stored, run::JobWatch& watch) {
   const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
-  std::filesystem::remove(file);
-  if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
+  if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) {
+    std::filesystem::remove(file);
+    return;
+  }
   const control::System system = system_of(reference, stored);
   const control::Cost cost = control::make_cost(system, config.weights, config.factors);
   List<Eigen::MatrixXf> curvature;
@@ -124,6 +127,7 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
   if (!stored) {
     stored = make(reference, config.simulation, settings, watch);
     if (!watch.interrupted) {
+      std::filesystem::remove(job.folder.gains(job.name));  // of an older plan
       make_folder(job.folder.plan(job.name).parent_path());
       files::write_plan(job.folder.plan(job.name), *stored);
     }

@@ -27,7 +27,7 @@ struct SequenceJob {
   std::string name;            ///< key of the sequence's files in the folder
   std::string input_checksum;  ///< a checkpoint of another input is not continued
   record::RunFolder folder;
-  bool substeps = false;  ///< record every physics step of the result
+  bool substeps = false;  ///< record every physics step of the result; else none
   bool gains = false;     ///< write the feedback gains of a plan
   int threads = 1;
   double limit_seconds = 0.0;     ///< time limit; 0: none

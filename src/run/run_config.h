@@ -34,8 +34,9 @@ struct RunConfig {
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool force = false;       ///< overwrite files of other programs
   std::vector<std::string> protect;  ///< inputs of the same command that belong to other runs
-  bool substeps = false;  ///< also write every physics step of the result; also of finished motions
-  bool gains = false;     ///< also write the feedback gains of plans, also of finished ones
+  /// Also write every physics step of the result; also of finished motions. Those of an earlier command stay.
+  bool substeps = false;
+  bool gains = false;  ///< the same of the feedback gains of plans
   CorrectionConfig correction;
   /// The shard of the inputs that is done here; empty: all inputs. A shard's records, and the list that all
   /// shards agree on, are in OUT/shards; all else is where the whole run has it (record/shard.h).

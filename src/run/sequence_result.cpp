@@ -141,8 +141,9 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
   write_simulated_motion(with_parents(folder.root / output), motion.input, motion.reference, made.after,
                          run.method.simulation);
   write_parts(folder, motion.input, parts, run.method.simulation, entry);
-  std::filesystem::remove(folder.substeps(entry.name));
-  if (run.config.substeps)
+  if (made.after.substeps.empty())
+    std::filesystem::remove(folder.substeps(entry.name));
+  else
     audit::write_substeps(with_parents(folder.substeps(entry.name)),
                           {motion.reference.character, run.method.simulation, made.after.substeps,
                            made.after.last_state, motion.reference.scene});

@@ -29,8 +29,8 @@ void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry
 void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry);
 
-/// Writes fit, reference, feasibility, simulated motion, followed parts, taught policy and, on request,
-/// physics steps. The entry gets their names and checksums.
+/// Writes fit, reference, feasibility, simulated motion, followed parts, taught policy and, where the result
+/// has them, physics steps. The entry gets their names and checksums.
 /// @param parts  of a motion that is no success
 void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
                     const List<FollowedPart>& parts, record::SequenceEntry& entry);

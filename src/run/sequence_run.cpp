@@ -173,6 +173,14 @@ bool is_of_another_input(const record::SequenceEntry* there, const record::Seque
   return there && there->input_checksum != entry.input_checksum;
 }
 
+/// Whether a file is written that only some commands ask for: this one does, or an earlier one did for the
+/// same input. @param there  the earlier result, or null
+bool is_wanted(bool asked, const std::filesystem::path& file, const record::SequenceEntry* there,
+               const record::SequenceEntry& entry) {
+  const bool same = there && !is_of_another_input(there, entry);
+  return asked || (same && std::filesystem::exists(file));
+}
+
 /// Prepare → simulate → judge and write. @param there  the earlier result, or null
 void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done& done) {
   const RunState& run = worker.run;
@@ -181,9 +189,10 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   const JudgedMotion motion = prepare_sequence(worker, entry);
   if (is_of_another_input(there, entry)) remove_result(run.folder, *there);
   done.told = entry.notes.size();
-  const SequenceJob job{
-      entry.name,     entry.input_checksum,     run.folder,   run.config.substeps, run.config.gains,
-      worker.threads, run.config.limit_seconds, motion.needs, worker.context};
+  const bool substeps = is_wanted(run.config.substeps, run.folder.substeps(entry.name), there, entry),
+             gains = is_wanted(run.config.gains, run.folder.gains(entry.name), there, entry);
+  const SequenceJob job{entry.name,     entry.input_checksum,     run.folder,   substeps,      gains,
+                        worker.threads, run.config.limit_seconds, motion.needs, worker.context};
   const SimulatedSequence made = run.method.simulate(motion.reference, job);
   done.timing.planning_seconds = made.planning_seconds;
   done.timing.training_seconds = made.training_seconds;

@@ -217,6 +217,25 @@ TEST_F(PlanMotions, AddsGainsToAFinishedPlanWithoutReplanning) {
   EXPECT_EQ(run::results_of(out("at once")).at("gains/stand.npz"), gains);
 }
 
+TEST_F(PlanMotions, SubstepsAndGainsOfEarlierCommandsStay) {
+  PlanMotionsConfig config = planning("run", {stand});
+  config.run.substeps = true;
+  run(config);
+  const auto steps = run::results_of(out("run"));
+  config.run.substeps = false;
+  config.run.gains = true;
+  run(config);
+  auto both = run::results_of(out("run"));
+  ASSERT_TRUE(both.contains("gains/stand.npz"));
+  config.run.gains = false;
+  config.run.substeps = true;
+  std::filesystem::remove(out("run") / "motions" / "stand.npz");
+  run(config);
+  EXPECT_TRUE(run::results_of(out("run")) == both);
+  both.erase("gains/stand.npz");
+  EXPECT_TRUE(both == steps);
+}
+
 TEST_F(PlanMotions, IgnoresThePlanOfAnotherInput) {
   run(planning("run", {stand}));
   motion::write_clip(stand, motion::standing_clip(25));
