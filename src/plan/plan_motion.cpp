@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "control/gains.h"
 #include "core/file.h"
+#include "core/npz/npz.h"
 #include "core/units.h"
+#include "files/archive_members.h"
 #include "files/plan_file.h"
+#include "files/simulation_settings.h"
 #include "plan/plan_failure.h"
 #include "plan/reference_factors.h"
 #include "run/method.h"
@@ -14,13 +18,31 @@
 namespace mimicx::plan {
 namespace {
 
-/// The finished plan of an earlier run for the same input; none if the file is another one.
-std::optional<files::StoredPlan> finished_plan(const run::SequenceJob& job) {
+/// Whether two references are the same as a plan's file stores them.
+bool are_same(const std::vector<physics::State<double>>& one,
+              const std::vector<physics::State<double>>& other) {
+  const auto stored = [](const std::vector<physics::State<double>>& states) {
+    Npz npz;
+    files::add_states("", states, files::Precision::kFloat64, npz);
+    return format_npz(npz);
+  };
+  return stored(one) == stored(other);
+}
+
+/// The finished plan of an earlier run for the same input, reference and simulation; none if the file is
+/// another one. How a plan was sought is not in its file: a run keeps its settings, and one that begins
+/// without a manifest removes the plans that it finds (run/sequence_run.cpp).
+std::optional<files::StoredPlan> finished_plan(const motion::Reference& reference,
+                                               const physics::SimulationConfig& simulation,
+                                               const run::SequenceJob& job) {
   const std::filesystem::path file = job.folder.plan(job.name);
   if (!std::filesystem::exists(file)) return {};
   try {
     files::StoredPlan stored = files::read_plan(file);
-    if (stored.plan.ending != control::Ending::kStopped && stored.input_checksum == job.input_checksum)
+    if (stored.plan.ending != control::Ending::kStopped && stored.input_checksum == job.input_checksum &&
+        stored.fps == reference.fps &&
+        are_same(stored.reference, rl::tracking::simulator_states(reference)) &&
+        files::simulation_numbers(stored.simulation) == files::simulation_numbers(simulation))
       return stored;
   } catch (const DataError&) {  // a damaged plan is made again
   }
@@ -123,7 +145,7 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
   run::JobWatch watch{job};
   control::PlanConfig settings = config.plan;
   settings.factors = factors_of(reference, job.needs, config.plan);
-  std::optional<files::StoredPlan> stored = finished_plan(job);
+  std::optional<files::StoredPlan> stored = finished_plan(reference, config.simulation, job);
   if (!stored) {
     stored = make(reference, config.simulation, settings, watch);
     if (!watch.interrupted) {

@@ -1,10 +1,10 @@
 /// Plans one motion: optimal control on the simulator's derivatives finds residuals (control/plan.h), and
 /// their roll-out over the whole motion repeats the plan byte for byte.
 ///
-/// The plan is written to plans/NAME.npz (plan_file.h). A finished plan of the same input is reused; an
-/// interrupted one starts again. On request, the feedback gains of a successful plan are written to
-/// gains/NAME.npz. If a plan fails, the residuals after its end are zero, and the body falls in the rest of
-/// the roll-out.
+/// The plan is written to plans/NAME.npz (plan_file.h). A finished plan of the same input, reference and
+/// simulation is reused; an interrupted one starts again. On request, the feedback gains of a successful plan
+/// are written to gains/NAME.npz. If a plan fails, the residuals after its end are zero, and the body falls
+/// in the rest of the roll-out.
 #pragma once
 
 #include "plan/plan_settings.h"

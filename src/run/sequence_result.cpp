@@ -131,7 +131,10 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
                     const List<FollowedPart>& parts, record::SequenceEntry& entry) {
   const record::RunFolder& folder = run.folder;
   files::write_input(with_parents(folder.input(entry.name)), motion.input);
-  if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
+  if (motion.has_fit)
+    motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
+  else
+    std::filesystem::remove(folder.fit(entry.name));
   files::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
   if (!motion.needs.frames.empty())
     record::write_feasibility(with_parents(folder.feasibility(entry.name)),

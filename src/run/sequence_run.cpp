@@ -264,6 +264,13 @@ void add_timing(RunState& run, const std::string& name, const record::Timing& no
   timing.threads = threads;
 }
 
+/// Removes plans that a new run finds for its motions: without a manifest nothing says with which settings
+/// they were made, and an interruption must not let them pass for its own.
+void remove_plans(const RunState& run) {
+  std::error_code ignored;
+  for (const auto& [input, name] : run.names) std::filesystem::remove(run.folder.plan(name), ignored);
+}
+
 constexpr double kToldFeet = 0.01;  ///< m
 
 /// Writes a success in its input's format and body convention. For a failed sequence, removes an earlier
@@ -430,8 +437,10 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   std::vector<std::string> protect = config.protect;
   protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
   record::Outputs outputs(protect, config.force);
-  claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
+  const bool continued = std::filesystem::exists(folder.manifest());
+  claim_run(folder, run.names, continued, outputs);
   if (list) record::agree_on(*list, folder);  // after all that may refuse the run
+  if (!continued) remove_plans(run);
   folder.create();
   if (config.map.keep) config.map.keep(folder, context.messages);
   write_records(run);

@@ -244,6 +244,40 @@ TEST_F(PlanMotions, IgnoresThePlanOfAnotherInput) {
   EXPECT_EQ(entry("run").frames, 25);
 }
 
+TEST_F(PlanMotions, PlanOfAnotherReferenceOrSimulationIsMadeAgain) {
+  const PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  const auto made = run::results_of(out("run"));
+  const std::filesystem::path plan = out("run") / "plans" / "stand.npz";
+  for (const bool simulation : {false, true}) {
+    files::StoredPlan stored = files::read_plan(plan);
+    if (simulation)
+      stored.simulation.friction = 0.9;
+    else
+      stored.reference.at(10).p_root.x += 1e-9;
+    files::write_plan(plan, stored);
+    std::filesystem::remove(out("run") / "motions" / "stand.npz");
+    run(config);
+    EXPECT_TRUE(run::results_of(out("run")) == made) << simulation;
+  }
+}
+
+// A removed manifest makes a new run of the folder, which may have other settings.
+TEST_F(PlanMotions, RunWithoutItsManifestReusesNoPlanAlsoAfterAnInterruption) {
+  PlanMotionsConfig config = planning("run", {other});
+  run(config);
+  make_folder(out("run") / "fits");  // as if it had keypoints, and had been fitted to them
+  std::filesystem::copy_file(out("run") / "inputs" / "other.npz", out("run") / "fits" / "other.npz");
+  std::filesystem::remove(out("run") / "manifest.json");
+  config.run.force = true;
+  config.planning.plan.weights.position += 1.0;
+  EXPECT_EQ(run(config, 2).value, record::RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  config.run.out = out("fresh");
+  run(config);
+  EXPECT_TRUE(run::results_of(out("run")) == run::results_of(out("fresh")));
+}
+
 TEST_F(PlanMotions, ChangedInputLeavesNoFileOfItsOldResultAlsoAfterAnInterruption) {
   PlanMotionsConfig config = planning("run", {stand});
   config.run.substeps = config.run.gains = true;
