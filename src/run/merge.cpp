@@ -8,6 +8,7 @@
 
 #include "core/file.h"
 #include "record/journal.h"
+#include "record/sequence_entry.h"
 #include "record/utf8_names.h"
 #include "report/run_report.h"
 #include "run/run_outputs.h"
@@ -105,6 +106,58 @@ void keep_others(const record::RunFolder& folder, GatheredShards& gathered) {
     if (!names.contains(timing.name)) gathered.timings.push_back(timing);
 }
 
+/// Whether a finished record of the folder describes the files of its motion: the motion is there, and no
+/// file is another one than it lists.
+bool describes_files(const record::RunFolder& folder, const record::SequenceEntry& entry) {
+  if (!entry.finished()) return false;
+  for (const auto& [name, checksum] : entry.files) {
+    const std::string now = record::checksum_or_none(folder.root / name);
+    const bool gone = now.empty() && name != entry.output;
+    if (now != checksum && !gone) return false;
+  }
+  return true;
+}
+
+bool are_equal(const record::SequenceEntry& one, const record::SequenceEntry& other) {
+  return record::to_json(one).dump() == record::to_json(other).dump();
+}
+
+/// Of the motions of the shards, the folder's records that differ from the shards' and describe the files.
+std::vector<const record::SequenceEntry*> newer_records(const record::RunFolder& folder,
+                                                        const record::Manifest& whole,
+                                                        const GatheredShards& all) {
+  std::map<std::string, const record::SequenceEntry*> own;
+  for (const record::SequenceEntry& entry : whole.sequences) own[entry.input] = &entry;
+  std::vector<const record::SequenceEntry*> newer;
+  const auto consider = [&](const record::ListedInput& input, const record::SequenceEntry* of_shard) {
+    const auto found = own.find(input.input);
+    if (found == own.end() || found->second->name != input.name) return;
+    if (of_shard && are_equal(*of_shard, *found->second)) return;
+    if (describes_files(folder, *found->second)) newer.push_back(found->second);
+  };
+  for (const record::SequenceEntry& entry : all.manifest.sequences)
+    consider({entry.name, entry.input}, &entry);
+  for (const MissingInput& missing : all.missing) consider(missing.input, nullptr);
+  return newer;
+}
+
+/// Takes over records and times of motions that a whole run of the merged folder has made again: their files
+/// are no longer those of the shards' records.
+void keep_newer(const record::RunFolder& folder, GatheredShards& all) {
+  const ShardRecords whole = records_of(folder);
+  if (!whole.begun || !all.manifest.differences(whole.manifest, true).empty()) return;  // keep_others refuses
+  all.manifest.samples = std::max(all.manifest.samples, whole.manifest.samples);
+  std::set<std::string> names;
+  for (const record::SequenceEntry* entry : newer_records(folder, whole.manifest, all)) {
+    names.insert(entry->name);
+    all.manifest.put(*entry);
+  }
+  std::erase_if(all.missing, [&](const auto& missing) { return names.contains(missing.input.name); });
+  std::erase_if(all.timings, [&](const auto& timing) { return names.contains(timing.name); });
+  for (const record::Timing& timing : whole.timings)
+    if (names.contains(timing.name)) all.timings.push_back(timing);
+}
+
 }  // namespace
 
 RunLocks lock_shards(const std::filesystem::path& out) {
@@ -132,6 +185,7 @@ GatheredShards gather_shards(const std::filesystem::path& out) {
   std::vector<record::SequenceEntry> entries = std::move(all.manifest.sequences);
   all.manifest = settings.manifest();
   all.manifest.sequences = std::move(entries);
+  keep_newer(record::RunFolder{out}, all);
   all.manifest.order(listed(all.list));
   order_timings(all.manifest, all.timings);
   return all;

@@ -5,8 +5,11 @@
 /// the same bytes as those of a run on one machine, for any number of shards. Nothing is written while a
 /// motion is missing.
 ///
-/// What it does not do: it reads only the motions that the report shows. Damaged files are found by repeating
-/// the command of the run.
+/// After a merge the folder may go on as a whole run and make motions again, whose inputs have changed.
+/// Merged again, it keeps the whole run's records of them, which describe the files that are there.
+///
+/// What it does not do: it reads only the motions that the report shows, and those whose records in folder
+/// and shard differ. Damaged files are found by repeating the command of the run.
 #pragma once
 
 #include <filesystem>
@@ -37,7 +40,7 @@ struct GatheredShards {
 /// @throws DataError if it holds no shards, OutputRefused naming a shard that is running
 RunLocks lock_shards(const std::filesystem::path& out);
 
-/// Reads all records. The folder must be locked.
+/// Reads all records, also those of a folder that was merged before. The folder must be locked.
 /// @throws DataError for invalid records, std::invalid_argument for shards of different settings
 GatheredShards gather_shards(const std::filesystem::path& out);
 

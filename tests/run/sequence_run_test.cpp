@@ -94,6 +94,35 @@ TEST_F(ParallelRun, MergeReusesTheReportClipsOfTheShards) {
   EXPECT_TRUE(merged == whole);
 }
 
+TEST_F(ParallelRun, MergeKeepsTheRecordsOfALaterWholeRun) {
+  inputs = {inputs[4], (folder.path / "own.npz").string()};
+  const std::filesystem::path out = folder.path / "run";
+  const auto shards_and_merge = [&](const std::vector<int>& shards) {
+    for (const int index : shards) {
+      plan::PlanMotionsConfig part = planning("run", 1);
+      part.run.shard = {index, 2};
+      EXPECT_EQ(run(part).value, record::RunOutcome::kAllGood);
+    }
+    const RunLocks locks = lock_shards(out);
+    GatheredShards gathered = gather_shards(out);
+    EXPECT_TRUE(gathered.missing.empty());
+    write_merged(out, std::move(gathered), false, {});
+  };
+  motion::write_clip(inputs[1], motion::standing_clip(8));
+  shards_and_merge({0, 1});
+  motion::write_clip(inputs[1], motion::standing_clip(9));
+  EXPECT_EQ(run(planning("run", 1)).value, record::RunOutcome::kAllGood);
+  const auto whole = results("run");
+  const std::string times = read_file(out / "timing.json");
+  shards_and_merge({});
+  EXPECT_TRUE(results("run") == whole);
+  EXPECT_EQ(read_file(out / "timing.json"), times);
+  motion::write_clip(inputs[1], motion::standing_clip(10));
+  shards_and_merge({0, 1});
+  EXPECT_EQ(record::read_manifest(out / "manifest.json").sequences.at(1).frames, 10)
+      << "the shard's, where its motion is there";
+}
+
 TEST_F(ParallelRun, RefusedShardLeavesNoAgreement) {
   inputs = {inputs[4]};
   const std::filesystem::path out = folder.path / "run", foreign = out / "motions" / "stand4.npz";
