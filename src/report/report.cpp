@@ -95,11 +95,13 @@ record::Json to_json(const ReportRow& row) {
           {"embedded", row.embedded}};
 }
 
-/// A "</script>" in a file name must not end the element that holds the data.
-std::string without_ends(std::string text) {
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
-    text.replace(at, 2, "<\\/");
-  return text;
+/// JSON that may stand in a page: what a file name has of HTML ("</script>", "<!--") must not end the element
+/// that holds it, or keep it open. JSON has "<" in texts alone, where "\u003c" is the same letter.
+std::string safe_in_html(std::string json) {
+  constexpr std::string_view kEscaped = "\\u003c";
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += kEscaped.size())
+    json.replace(at, 1, kEscaped);
+  return json;
 }
 
 }  // namespace
@@ -137,14 +139,14 @@ std::string clip_json(const ReportClip& clip) {
     json["needs"]["wrong"] = clip.wrong;
     if (!clip.assistance.force.empty()) json["help"] = to_json(clip.assistance);
   }
-  return without_ends(json.dump());
+  return safe_in_html(json.dump());
 }
 
 std::string clip_script(const std::string& name, const std::string& json,
                         const std::map<std::string, std::string>& bodies) {
   std::string list;
   for (const auto& [key, body] : bodies) list += (list.empty() ? "\"" : ", \"") + key + "\": " + body;
-  return "mimicx_clip(" + without_ends(record::Json(name).dump()) + ", " + json + ", {" + list + "});\n";
+  return "mimicx_clip(" + safe_in_html(record::Json(name).dump()) + ", " + json + ", {" + list + "});\n";
 }
 
 std::string format_report(const Report& report, const std::vector<std::string>& clips) {
@@ -159,7 +161,7 @@ std::string format_report(const Report& report, const std::vector<std::string>& 
   for (const ReportRow& row : report.rows) rows.push_back(to_json(row));
   record::Json all = {{"run", run}, {"metrics", metrics}, {"rows", rows}};
   if (!report.map.empty()) all["map"] = record::Json::parse(report.map);
-  std::string page = std::string(kReportPageBefore) + without_ends(all.dump());
+  std::string page = std::string(kReportPageBefore) + safe_in_html(all.dump());
   const auto add = [&page](const std::string& id, const std::string& json) {
     if (!json.empty()) page += "</script>\n<script type=\"application/json\" id=\"" + id + "\">" + json;
   };

@@ -73,6 +73,20 @@ TEST(Report, DataIsEscapedForHtml) {
             (std::vector<std::vector<int>>{{0, 1}}));
 }
 
+// "<!--" with "<script" behind it would keep the element open to the end of the page.
+TEST(Report, NamesCannotEndTheirElementOrKeepItOpen) {
+  const std::string name = "walk <!-- <script> </script>";
+  Report report = example();
+  report.rows[0].name = name;
+  ReportClip clip = example_clip();
+  clip.notes = {name};
+  const std::string page = format_report(report, {clip_json(clip)});
+  for (const char* id : {"data", "clip-0"}) EXPECT_EQ(element(page, id).find('<'), std::string::npos) << id;
+  EXPECT_EQ(record::Json::parse(element(page, "data")).at("rows").at(0).at("name").get<std::string>(), name);
+  EXPECT_EQ(record::Json::parse(element(page, "clip-0")).at("notes").at(0).get<std::string>(), name);
+  EXPECT_EQ(clip_script(name, "{}", {}).find('<'), std::string::npos);
+}
+
 TEST(Report, ClipScriptIsOneCallWithDataAndBodies) {
   const std::string json = clip_json(example_clip());
   EXPECT_EQ(clip_script("a \"b\"/c", json, {{"0a", "{\"x\":1}"}, {"4b", "{}"}}),
