@@ -147,31 +147,37 @@ void declare_synth(CommandLine& line) {
                "mimicx synth --out set --kinds walk,jump --clips 20     # two kinds, ten of each");
   synth::SynthSetConfig& set = a->set;
   const Option out = command.folder("--out", a->out, "folder to write to");
-  command.number("--clips", set.clips, kFromOne,
-                 "number of motions, cycling through the kinds; default: one of each kind");
-  command.some_of("--kinds", set.kinds, selections(),
-                  "kinds to make, separated by commas; all: every exact kind; floor: sketches that go "
-                  "down to the floor, to be planned; scenes: stairs, kerbs, boxes and seats, each scene in "
-                  "scenes/NAME.json; default: the fourteen kinds of data/synthetic");
-  command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
-                 "errors of noisy/; none: exact motion; mixed: each clip with one of these, half of them "
-                 "without keypoints");
-  command.one_of("--camera", set.camera, {"calibrated", "perturbed", "wild"}, "how well its camera is known");
-  command.choice("--keypoints", set.keypoints,
-                 {{"joints22", motion::KeypointSet::kJoints22},
-                  {"coco17", motion::KeypointSet::kCoco17},
-                  {"coco133", motion::KeypointSet::kCoco133}},
-                 "which points are detected");
-  command.number("--seed", set.seed, kFromZero,
-                 "seed of the first motion of every kind; 101 and above: training split");
-  command
-      .path("--data-set", a->data_set,
-            "write the project's own small set, test/ and train/, to this folder instead")
-      .excludes(out);
+  const Option clips =
+      command.number("--clips", set.clips, kFromOne,
+                     "number of motions, cycling through the kinds; default: one of each kind");
+  const Option kinds = command.some_of(
+      "--kinds", set.kinds, selections(),
+      "kinds to make, separated by commas; all: every exact kind; floor: sketches that go "
+      "down to the floor, to be planned; scenes: stairs, kerbs, boxes and seats, each scene in "
+      "scenes/NAME.json; default: the fourteen kinds of data/synthetic");
+  const Option noise =
+      command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
+                     "errors of noisy/; none: exact motion; mixed: each clip with one of these, half of them "
+                     "without keypoints");
+  const Option camera = command.one_of("--camera", set.camera, {"calibrated", "perturbed", "wild"},
+                                       "how well its camera is known");
+  const Option keypoints = command.choice("--keypoints", set.keypoints,
+                                          {{"joints22", motion::KeypointSet::kJoints22},
+                                           {"coco17", motion::KeypointSet::kCoco17},
+                                           {"coco133", motion::KeypointSet::kCoco133}},
+                                          "which points are detected");
+  const Option seed = command.number("--seed", set.seed, kFromZero,
+                                     "seed of the first motion of every kind; 101 and above: training split");
+  const Option report = command.flag(
+      "--report", a->report,
+      "print the forces and torques that each motion of the set demands; --out is then optional");
+  Option data_set = command.path("--data-set", a->data_set,
+                                 "write the project's own small set, test/ and train/, to this folder "
+                                 "instead; it is always the same");
+  for (const Option& other : {out, clips, kinds, noise, camera, keypoints, seed, report})
+    data_set.excludes(other);
   add_force(command, a->force);
   add_json(command, a->json);
-  command.flag("--report", a->report,
-               "print the forces and torques that each motion of the set demands; --out is then optional");
   command.action([a] { return synth(*a); });
 }
 
