@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 #include "commands.h"
 #include "pipeline/cluster_map.h"
@@ -10,6 +11,22 @@
 
 namespace mimicx::tools {
 namespace {
+
+/// The methods by their names.
+const std::vector<std::pair<std::string, program::AdaptMethod>>& methods() {
+  static const std::vector<std::pair<std::string, program::AdaptMethod>> kMethods = {
+      {"auto", program::AdaptMethod::kAuto},
+      {"plan", program::AdaptMethod::kPlan},
+      {"options", program::AdaptMethod::kOptions},
+      {"printed", program::AdaptMethod::kPrinted}};
+  return kMethods;
+}
+
+std::string name_of(program::AdaptMethod method) {
+  for (const auto& [name, known] : methods())
+    if (known == method) return name;
+  throw std::logic_error("adapt: a method without a name");
+}
 
 struct AdaptArguments {
   program::AdaptConfig config = program::adapt_configuration();
@@ -43,6 +60,26 @@ pipeline::options::OptionSets read_sets(const std::vector<std::string>& given, p
   return sets;
 }
 
+/// @param options  those that the method does not use @param users  the methods that use them, in words
+/// @throws UsageError if the line has one of them
+void refuse_given(const Command& command, const std::vector<std::string>& options, const std::string& users,
+                  program::AdaptMethod method) {
+  for (const std::string& option : options)
+    if (command.given(option))
+      throw UsageError(option + ": expected --method " + users + ", found " + name_of(method));
+}
+
+/// @throws UsageError for what the method would ignore: a plan alone has no options, options have no gains
+void refuse_unused(const Command& command, program::AdaptMethod method) {
+  using program::AdaptMethod;
+  if (method == AdaptMethod::kPlan)
+    refuse_given(command,
+                 {"--options", "--budget-samples", "--selector", "--switch-penalty", "--rescue-reward"},
+                 "auto, options or printed", method);
+  if (method == AdaptMethod::kOptions || method == AdaptMethod::kPrinted)
+    refuse_given(command, {"--gains"}, "auto or plan", method);
+}
+
 }  // namespace
 
 int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& options,
@@ -73,11 +110,7 @@ void declare_adapt(CommandLine& line) {
                "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
                "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
   command.choice_of<program::AdaptMethod>(
-      "--method", a->config.method,
-      {{"auto", program::AdaptMethod::kAuto},
-       {"plan", program::AdaptMethod::kPlan},
-       {"options", program::AdaptMethod::kOptions},
-       {"printed", program::AdaptMethod::kPrinted}},
+      "--method", a->config.method, methods(),
       [a](program::AdaptMethod method) {
         a->config.method = method;
         if (method == program::AdaptMethod::kPrinted) program::use_printed_method(a->config);
@@ -101,7 +134,8 @@ void declare_adapt(CommandLine& line) {
       "program, trained or taught; repeatable: the first set that follows the whole motion is used, "
       "else the best; default: trained, then taught");
   add_arrangement_arguments(command, a->config.arrangement);
-  command.action([a] {
+  command.action([a, command] {
+    refuse_unused(command, a->config.method);
     take_shard(a->more.shard, a->config.run);
     return adapt_motions(a->config, a->options, a->more);
   });

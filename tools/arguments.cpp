@@ -168,6 +168,8 @@ void Command::action(Action work) {
   app_->callback([action = action_, work = std::move(work)] { *action = work; });
 }
 
+bool Command::given(const std::string& option) const { return app_->count(option) > 0; }
+
 Option Command::file(const std::string& name, std::filesystem::path& file, const std::string& help) {
   return Option(add_single(
                     app_, name, "",

@@ -71,6 +71,8 @@ class Command {
 
   /// Sets the work of this subcommand.
   void action(Action work);
+  /// Whether the line has this option; after parsing, so in the work.
+  bool given(const std::string& option) const;
 
   Option file(const std::string& name, std::filesystem::path& file, const std::string& help);
   /// One file or more.
