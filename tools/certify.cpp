@@ -61,7 +61,7 @@ int certify(const CertifyArguments& a) {
   record::Outputs outputs(files::paths_of(inputs), a.force);
   for (const files::MotionInput& input : inputs) {
     outputs.claim(certificate_path(input), "MIMICERT");
-    outputs.claim(copy_path(input), "PK");
+    outputs.claim(copy_path(input));
   }
   bool all_good = true;
   for (const files::MotionInput& input : inputs) {

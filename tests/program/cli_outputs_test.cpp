@@ -27,6 +27,7 @@ struct CliOutputs : Cli {
   std::vector<Asked> all() const {
     const std::string w = path("in/w.npz"), mine = path("mine");
     const std::string small = " --samples 1 --threads 1 --out " + mine, plan = " --threads 1 --out " + mine;
+    const std::string certify = "certify " + path("stepped/motions/w.npz") + " --out " + mine;
     return {{"convert npz", "convert " + w + " " + mine + ".npz", "mine.npz"},
             {"convert npy", "convert " + w + " " + mine + ".npy", "mine.npy"},
             {"convert bvh", "convert " + w + " " + mine + ".bvh", "mine.bvh"},
@@ -52,6 +53,8 @@ struct CliOutputs : Cli {
             {"audit --csv", "audit --poses " + w + " --csv " + mine + ".csv", "mine.csv"},
             {"audit --frames-csv", "audit --poses " + w + " --frames-csv " + mine + ".csv", "mine.csv"},
             {"fit", "fit " + w + " --out " + mine, "mine/w.npz"},
+            {"certify", certify, "mine/w.npz"},
+            {"certify, certificate", certify, "mine/w.cert"},
             {"corrupt", "corrupt " + w + " --out " + mine, "mine/noisy/w.npz"},
             {"synth", "synth --kinds wave --out " + mine, "mine/truth/wave_1.npz"},
             {"imitate", "imitate " + w + small, "mine/training/w.csv"},
@@ -61,6 +64,9 @@ struct CliOutputs : Cli {
 };
 
 TEST_F(CliOutputs, ReplacesOwnFilesAndOthersOnlyByForce) {
+  const Call stepped =
+      mimicx("plan " + path("in/w.npz") + " --no-fit --substeps --threads 1 --out " + path("stepped"));
+  ASSERT_EQ(stepped.status, 0) << stepped.text;
   for (const Asked& asked : all()) {
     const std::filesystem::path file = path(asked.file);
     std::filesystem::create_directories(file.parent_path());
