@@ -86,6 +86,10 @@ void tell_decisions(const judge::Evaluation& evaluation) {
     for (const std::string& line : motion.told) std::cerr << line << '\n';
 }
 
+void tell_unmatched(const std::vector<std::string>& truths) {
+  for (const std::string& name : truths) std::cerr << "no motion for the truth " << name << '\n';
+}
+
 int evaluate_published(const EvaluateArguments& a) {
   const auto& names = motion::protocol_names();
   const auto protocol =
@@ -142,6 +146,7 @@ int evaluate(const EvaluateArguments& a) {
     for (const judge::Evaluation& evaluation : comparison.evaluations) tell_decisions(evaluation);
     table_stream(a.json) << judge::format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
+    tell_unmatched(comparison.unmatched);
     const bool none = comparison.evaluations.front().motions.empty();
     if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
     if (!a.json.empty()) write_json(a.json, judge::comparison_json(comparison));
@@ -152,7 +157,7 @@ int evaluate(const EvaluateArguments& a) {
   const judge::Evaluation evaluation = judge::evaluate_folders(a.truth, a.motions.front(), a.read);
   tell_decisions(evaluation);
   table_stream(a.json) << judge::format_evaluation(evaluation);
-  for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
+  tell_unmatched(evaluation.unmatched);
   if (!a.json.empty()) write_json(a.json, judge::evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
   const bool within = holds(evaluation, a.motions.front(), limits);

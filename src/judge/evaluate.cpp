@@ -169,6 +169,23 @@ double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& met
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
+namespace {
+
+/// Names of the truths that have no motion in any of the folders.
+std::vector<std::string> without_motions(const std::filesystem::path& truth,
+                                         const std::vector<std::string>& folders) {
+  std::map<std::filesystem::path, std::vector<std::string>> lacks;  // by truth: its name in those without it
+  for (const std::string& folder : folders)
+    for (const auto& [name, pair] : paired(truth, folder))
+      if (pair.motion.empty()) lacks[pair.truth].push_back(name);
+  std::vector<std::string> names;
+  for (const auto& [path, lacking] : lacks)
+    if (lacking.size() == folders.size()) names.push_back(lacking.front());
+  return names;
+}
+
+}  // namespace
+
 Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders,
                            const import::ReadConfig& read) {
   Comparison comparison;
@@ -184,6 +201,8 @@ Comparison compare_folders(const std::filesystem::path& truth, const std::vector
   for (Evaluation& evaluation : comparison.evaluations)
     std::erase_if(evaluation.motions, [&](const auto& m) { return evaluated.at(m.name) < folders.size(); });
   for (const auto& [name, count] : evaluated) comparison.left_out += count < folders.size() ? 1 : 0;
+  comparison.unmatched = without_motions(truth, folders);
+  comparison.left_out += static_cast<int>(comparison.unmatched.size());
   return comparison;
 }
 
@@ -212,6 +231,7 @@ std::string comparison_json(const Comparison& comparison) {
     json["rows"].push_back({{"folder", comparison.labels[k]}, {"mean", mean}});
   }
   for (const EvaluatedMotion& m : comparison.evaluations.front().motions) json["motions"].push_back(m.name);
+  json["unmatched"] = comparison.unmatched;
   for (const auto& d : motion::metric_definitions())
     json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
   return record::document(json);

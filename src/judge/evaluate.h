@@ -64,15 +64,16 @@ double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& met
 struct Comparison {
   std::vector<std::string> labels;      ///< [folder]
   std::vector<Evaluation> evaluations;  ///< [folder], each of the same motions
-  int left_out = 0;                     ///< motions that are missing or failed in some folder
+  int left_out = 0;                     ///< motions that are missing or failed in some folder, or in all
   std::vector<std::string> failures;    ///< of the failed motions: "folder/name: reason"
+  std::vector<std::string> unmatched;   ///< names of truths without a motion in any folder
 };
 /// @throws DataError as `evaluate_folders`
 Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders,
                            const import::ReadConfig& read = {});
 /// A line of means per folder.
 std::string format_comparison(const Comparison& comparison);
-/// {"rows": [{folder, mean}], "motions": [names], "left_out", "definitions"}
+/// {"rows": [{folder, mean}], "motions": [names], "left_out", "unmatched": [...], "definitions"}
 std::string comparison_json(const Comparison& comparison);
 
 /// A line per motion and one of means, columns aligned.

@@ -208,6 +208,20 @@ TEST_F(Evaluate, ComparesFoldersOverTheirCommonMotions) {
   EXPECT_NEAR(json.at("rows").at(0).at("mean").at("MRPE").get<double>(), 20.0, 1e-6);
 }
 
+TEST_F(Evaluate, TruthsThatNoFolderHasAMotionOfAreLeftOutOfAComparison) {
+  add_pair("a", 0.010);
+  add_pair("b", 0.030);
+  const std::filesystem::path fewer = folder.path / "fewer";
+  std::filesystem::create_directory(fewer);
+  std::filesystem::copy(truth / "a.npz", fewer / "a.npz");
+  motion::write_clip(truth / "lost.npz", motion::standing_clip(20));
+  const Comparison comparison = compare_folders(truth, {motions.string(), fewer.string()});
+  EXPECT_EQ(comparison.unmatched, std::vector<std::string>{"lost"});
+  EXPECT_EQ(comparison.left_out, 2) << "b, which one folder has, and lost";
+  const auto json = record::Json::parse(comparison_json(comparison));
+  EXPECT_EQ(json.at("unmatched").at(0).get<std::string>(), "lost");
+}
+
 TEST_F(Evaluate, RejectsFoldersWithoutMotions) {
   EXPECT_THROW(evaluate_folders(truth, motions), DataError);
   EXPECT_THROW(evaluate_folders(truth, folder.path / "none"), DataError);

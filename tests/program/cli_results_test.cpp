@@ -90,6 +90,9 @@ TEST_F(CliResults, EvaluateFailsAboveALimit) {
   EXPECT_EQ(mimicx(lost + path("one")).status, 0);
   EXPECT_EQ(mimicx(lost + path("one") + " --fail-above MPJPE=1").status, 1) << "the other one was lost";
   EXPECT_EQ(mimicx(lost + path("both") + " " + path("one") + " --fail-above MPJPE=1").status, 1);
+  const Call nowhere = mimicx(lost + path("one") + " " + path("one") + " --fail-above MPJPE=1");
+  EXPECT_EQ(nowhere.status, 1) << nowhere.text;
+  EXPECT_TRUE(says(nowhere, "no motion for the truth b\n")) << nowhere.text;
   EXPECT_EQ(mimicx(lost + path("both") + " --fail-above MPJPE=1").status, 0);
   for (const char* wrong : {"MPJPE", "MPJPE=", "beauty=1", "=1"}) {
     const Call call = mimicx(evaluate + " --fail-above " + wrong);
