@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/file.h"
 #include "record/outputs.h"
 #include "shared_arguments.h"
 #include "simulation_commands.h"
@@ -17,7 +18,16 @@ struct RunFileArguments {
   program::AdaptConfig adapt = program::adapt_configuration();
 };
 
+/// @throws UsageError if --json names a file of one of the stages
+void require_json_apart_from_stages(const RunFileArguments& a) {
+  if (a.json.empty() || is_standard_output(a.json)) return;
+  require_json_apart(a.json, a.out / "clean");
+  if (is_within(a.json, a.out / "options"))
+    throw UsageError("--json: expected a file outside the folder of the options, found " + a.json.string());
+}
+
 int run_all_stages(RunFileArguments a) {
+  require_json_apart_from_stages(a);
   if (!is_standard_output(a.json))  // not after hours
     record::Outputs({a.in.string()}, a.pretrain.force).claim(a.json, record::kJsonOpening);
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};

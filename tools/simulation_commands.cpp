@@ -169,7 +169,47 @@ record::Json results_of(const std::filesystem::path& folder) {
   return manifest;
 }
 
+/// The folders in a run's folder that hold its results.
+std::vector<std::filesystem::path> result_folders(const record::RunFolder& folder) {
+  std::vector<std::filesystem::path> folders = {folder.root / "shards", folder.report_clip("a").parent_path(),
+                                                folder.clean("a", "").parent_path()};
+  for (const std::filesystem::path& file : folder.files_of("a")) folders.push_back(file.parent_path());
+  return folders;
+}
+
+/// The folder of a run of one input, beside it.
+std::filesystem::path folder_beside(const std::filesystem::path& file) {
+  return file.parent_path() / (file.stem().string() + ".mimicx");
+}
+
+[[noreturn]] void refuse_json(const std::filesystem::path& json) {
+  throw UsageError("--json: expected a file that is not the run's own, found " + json.string());
+}
+
+/// @param files  all inputs @param out  the folder of the run; empty: each has its own, beside it
+void require_json_apart_from_all(const std::filesystem::path& json, const std::filesystem::path& out,
+                                 const std::vector<std::string>& files) {
+  if (json.empty() || is_standard_output(json)) return;
+  if (!out.empty()) return require_json_apart(json, out);
+  for (const std::string& file : files) {
+    require_json_apart(json, folder_beside(file));
+    if (is_within(json, run::copy_beside(file))) refuse_json(json);
+  }
+}
+
 }  // namespace
+
+void require_json_apart(const std::filesystem::path& json, const std::filesystem::path& out) {
+  if (json.empty() || is_standard_output(json)) return;
+  if (is_within(out, json)) refuse_json(json);  // the folder itself, or one around it
+  if (!is_within(json, out)) return;
+  const record::RunFolder folder{out};
+  std::vector<std::filesystem::path> own = result_folders(folder);
+  own.insert(own.end(), {folder.manifest(), folder.journal(), folder.timing(), folder.report(),
+                         folder.clusters(), out / "lock"});
+  for (const std::filesystem::path& path : own)
+    if (is_within(json, path)) refuse_json(json);
+}
 
 record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& json,
                               const record::RunContext& context,
@@ -185,6 +225,7 @@ record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& 
   record::Json runs = record::Json::array();
   const std::vector<files::MotionInput> inputs = files::find_motions(run.inputs, run.out, &context.messages);
   const std::vector<std::string> files = files::paths_of(inputs);
+  require_json_apart_from_all(json, run.out, files);
   if (!is_standard_output(json)) record::Outputs(files, run.force).claim(json, record::kJsonOpening);
   const auto tell = [&](record::RunOutcome outcome) {
     if (!json.empty()) write_json(json, record::document({{"runs", runs}}));
@@ -203,7 +244,7 @@ record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& 
   run::claim_copies_beside(files, run.force);
   for (const std::filesystem::path file : files) {
     run.inputs = {file.string()};
-    run.out = file.parent_path() / (file.stem().string() + ".mimicx");
+    run.out = folder_beside(file);
     try {
       if (!std::filesystem::exists(file)) throw std::runtime_error("expected a readable file, found none");
       const record::RunOutcome outcome = once();

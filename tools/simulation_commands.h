@@ -58,6 +58,10 @@ void add_arrangement_arguments(Command& command, pipeline::options::ArrangementC
 /// @throws UsageError for errors of the command line
 int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work);
 
+/// --json must not name what a run in this folder writes: the record of the run would be lost.
+/// @param json  empty, or "-", which is standard output: nothing is refused @throws UsageError
+void require_json_apart(const std::filesystem::path& json, const std::filesystem::path& out);
+
 /// Runs all inputs in the given folder; without one, each input in its own folder beside it (NAME.mimicx),
 /// with its clean motion beside it (NAME.clean.EXT).
 /// @param run   its inputs and folder are set for each run

@@ -64,6 +64,24 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t at, std::s
   return bytes;
 }
 
+namespace {
+
+/// Absolute, without links as far as it exists, and without a slash at its end.
+std::filesystem::path whole_path(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  std::filesystem::path found = std::filesystem::weakly_canonical(absolute, error);
+  if (error) found = absolute.lexically_normal();
+  return found.has_filename() ? found : found.parent_path();
+}
+
+}  // namespace
+
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const std::filesystem::path relative = whole_path(path).lexically_relative(whole_path(folder));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (!path.empty()) std::filesystem::create_directories(path, error);

@@ -21,6 +21,10 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
 /// `count` bytes of a regular file from byte `at` on, or as many as it has; none of anything else.
 std::string read_bytes(const std::filesystem::path& path, std::size_t at, std::size_t count);
 
+/// Whether a path is that of a folder, or below it, however both are spelled and whatever links lead there.
+/// Neither need exist.
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 /// Creates a folder and its missing parents. @throws DataError if that fails
 void make_folder(const std::filesystem::path& path);
 

@@ -28,6 +28,19 @@ TEST(WriteFile, ErrorStatesTheReasonAndLeavesNoFile) {
   EXPECT_EQ(why(nowhere), nowhere.string() + ": expected a writable file, found No such file or directory");
 }
 
+TEST(IsWithin, HoldsInEverySpellingAndThroughLinks) {
+  const fs::path folder = scratch("within");
+  fs::create_directories(folder / "run");
+  fs::create_directory_symlink(folder / "run", folder / "link");
+  const fs::path run = folder / "run";
+  for (const char* inside : {"run", "run/", "run/new/file", "link", "link/new", "other/../run/a", "./run"})
+    EXPECT_TRUE(is_within(folder / inside, run)) << inside;
+  for (const char* outside : {"", "run-2", "runs/a", "run/../a", "link/../a", "new/run"})
+    EXPECT_FALSE(is_within(folder / outside, run)) << outside;
+  EXPECT_TRUE(is_within("none/a", fs::current_path() / "none/")) << "neither exists";
+  EXPECT_FALSE(is_within(fs::current_path(), "none"));
+}
+
 TEST(WriteFile, TwoWritersOfOneFileDoNotMix) {
   const fs::path path = scratch("shared.csv");
   AtomicFile first(path), second(path);

@@ -59,6 +59,26 @@ TEST_F(CliResults, JsonOfRunsBesideTheirInputsHasAllOfThem) {
             2);  // a file that is not ours to overwrite
 }
 
+TEST_F(CliResults, JsonNeverReplacesAFileOfTheRun) {
+  const std::string plan = "plan " + a + " --no-fit --quiet", json = " --force --json ";
+  const auto refused = [&](const std::string& command, const std::string& file) {
+    const Call call = mimicx(command + json + path(file));
+    EXPECT_EQ(call.status, 2) << file << call.text;
+    EXPECT_TRUE(says(call, "--json: expected a file") && says(call, path(file))) << call.text;
+    EXPECT_EQ(lines_of(call.text).size(), 1U) << call.text;
+  };
+  for (const char* file : {"manifest.json", "journal.jsonl", "timing.json", "report.html", "clusters.json",
+                           "lock", "report/a.js", "motions/a.npz", "clean/new.json", "shards/run.json", ""})
+    refused(plan + " --out " + path("run"), std::string("run/") + file);
+  for (const char* file : {"a.mimicx", "a.mimicx/manifest.json", "a.mimicx/motions/a.npz", "a.clean.npz"})
+    refused(plan, file);
+  for (const char* file : {"all/clean/manifest.json", "all/options/clusters.json"})
+    refused("run " + path("in") + " --out " + path("all"), file);
+  for (const char* folder : {"run", "a.mimicx", "all"}) EXPECT_FALSE(std::filesystem::exists(path(folder)));
+  const Call beside = mimicx(plan + " --out " + path("run") + json + path("run/results.json"));
+  EXPECT_EQ(beside.status, 0) << "a file that the run does not have: " << beside.text;
+}
+
 TEST_F(CliResults, JsonOfAllStagesIsThatOfTheirLast) {
   std::filesystem::create_directories(path("in"));
   std::filesystem::rename(a, path("in/a.npz"));
