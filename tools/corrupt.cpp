@@ -50,9 +50,14 @@ int corrupt(const CorruptArguments& a) {
   const std::vector<files::MotionInput> inputs = files::find_motions(a.inputs, a.out, &std::cerr);
   const std::vector<std::string> names = files::unique_names(inputs);
   record::Outputs outputs(files::paths_of(inputs), a.force);
+  std::vector<std::filesystem::path> results;
   for (const std::string& name : names)
-    for (const char* part : {"truth", "noisy"}) outputs.claim(a.out / part / (name + ".npz"));
+    for (const char* part : {"truth", "noisy"}) {
+      results.push_back(a.out / part / (name + ".npz"));
+      outputs.claim(results.back());
+    }
   if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
+  files::require_results_apart(a.inputs, a.out, results);
   const record::FolderLock lock(a.out);
   std::size_t written = 0;
   record::Json motions = record::Json::array();

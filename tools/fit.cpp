@@ -66,6 +66,7 @@ std::vector<std::filesystem::path> claimed_outputs(const std::vector<files::Moti
     outputs.claim(paths.back());
   }
   if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
+  files::require_results_apart(a.inputs, a.out, paths);
   return paths;
 }
 

@@ -17,6 +17,7 @@ struct PretrainArguments {
 }  // namespace
 
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings) {
+  require_own_folder(config.inputs, config.out);
   config.clusters.seed = config.training.seed;
   apply_settings(settings, config.training);
   return with_context(false,

@@ -28,6 +28,7 @@ void require_json_apart_from_stages(const RunFileArguments& a) {
 
 int run_all_stages(RunFileArguments a) {
   require_json_apart_from_stages(a);
+  require_inputs_apart({a.in.string()}, a.out / "clean");
   if (!is_standard_output(a.json))  // not after hours
     record::Outputs({a.in.string()}, a.pretrain.force).claim(a.json, record::kJsonOpening);
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};

@@ -169,6 +169,8 @@ record::Json results_of(const std::filesystem::path& folder) {
   return manifest;
 }
 
+constexpr const char* kResultsAlone = "--out: expected a folder for the results alone";
+
 /// The folders in a run's folder that hold its results.
 std::vector<std::filesystem::path> result_folders(const record::RunFolder& folder) {
   std::vector<std::filesystem::path> folders = {folder.root / "shards", folder.report_clip("a").parent_path(),
@@ -199,6 +201,24 @@ void require_json_apart_from_all(const std::filesystem::path& json, const std::f
 
 }  // namespace
 
+void require_own_folder(const std::vector<std::string>& inputs, const std::filesystem::path& out) {
+  if (out.empty()) return;
+  for (const std::string& input : inputs)
+    if (is_within(input, out) && is_within(out, input))
+      throw UsageError(std::string(kResultsAlone) + ", found that of the inputs, " + input);
+}
+
+void require_inputs_apart(const std::vector<std::string>& inputs, const std::filesystem::path& out) {
+  require_own_folder(inputs, out);
+  for (const std::string& input : inputs) {
+    if (out.empty() || !is_within(input, out)) continue;
+    for (const std::filesystem::path& folder : result_folders({out}))
+      if (is_within(input, folder))
+        throw UsageError(kResultsAlone + ("; " + input) + " is an input in its " +
+                         folder.filename().string() + "/");
+  }
+}
+
 void require_json_apart(const std::filesystem::path& json, const std::filesystem::path& out) {
   if (json.empty() || is_standard_output(json)) return;
   if (is_within(out, json)) refuse_json(json);  // the folder itself, or one around it
@@ -217,14 +237,11 @@ record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& 
   if (!json.empty() && run.shard)
     throw UsageError(
         "--json: a shard has a part of the results; `mimicx merge` joins them, whose --json counts them");
-  std::error_code missing;
-  for (const std::string& input : run.inputs)  // a run's folder holds no inputs: such a run could not go on
-    if (std::filesystem::is_directory(input, missing) && !run.out.empty() &&
-        std::filesystem::equivalent(input, run.out, missing))
-      throw UsageError("--out: expected a folder for the results alone, found that of the inputs, " + input);
+  require_inputs_apart(run.inputs, run.out);
   record::Json runs = record::Json::array();
   const std::vector<files::MotionInput> inputs = files::find_motions(run.inputs, run.out, &context.messages);
   const std::vector<std::string> files = files::paths_of(inputs);
+  require_inputs_apart(files, run.out);  // a folder of inputs may have links into that of the run
   require_json_apart_from_all(json, run.out, files);
   if (!is_standard_output(json)) record::Outputs(files, run.force).claim(json, record::kJsonOpening);
   const auto tell = [&](record::RunOutcome outcome) {

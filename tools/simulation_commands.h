@@ -58,6 +58,13 @@ void add_arrangement_arguments(Command& command, pipeline::options::ArrangementC
 /// @throws UsageError for errors of the command line
 int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work);
 
+/// The folder of a run or of options is no folder of inputs: with those it could not be continued.
+/// @param out  may be empty @throws UsageError for the input that is this folder
+void require_own_folder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
+/// The same, and no input is among the results of the run in this folder.
+/// @param inputs  files and folders @throws UsageError also for an input in a folder of results
+void require_inputs_apart(const std::vector<std::string>& inputs, const std::filesystem::path& out);
+
 /// --json must not name what a run in this folder writes: the record of the run would be lost.
 /// @param json  empty, or "-", which is standard output: nothing is refused @throws UsageError
 void require_json_apart(const std::filesystem::path& json, const std::filesystem::path& out);

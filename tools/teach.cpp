@@ -19,6 +19,8 @@ int teach(TeachArguments a) {
   apply_settings(a.settings, a.config);
   if (a.config.planning.run.inputs.empty() && a.config.plans.empty())
     throw UsageError("teach: expected motions to plan, or --plans");
+  require_own_folder(a.config.planning.run.inputs, a.config.out);
+  require_inputs_apart(a.config.planning.run.inputs, a.config.out / "plans");
   return with_context(false, [&](const record::RunContext& context) {
     run::RunConfig& run = a.config.planning.run;
     if (!run.inputs.empty()) {

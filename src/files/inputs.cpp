@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "import/motion_file.h"
 #include "record/outputs.h"
 #include "record/run_folder.h"
@@ -149,6 +150,17 @@ std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
     files.insert(files.end(), folder.files().begin(), folder.files().end());
   }
   return each_once(files, messages);
+}
+
+void require_results_apart(const std::vector<std::string>& inputs, const std::filesystem::path& out,
+                           const std::vector<std::filesystem::path>& results) {
+  for (const std::string& input : inputs) {
+    if (!is_within(input, out)) continue;
+    for (const std::filesystem::path& result : results)
+      if (is_within(result, input))
+        throw record::OutputRefused(
+            "--out: expected a folder for the results alone, found that of the inputs, " + input);
+  }
 }
 
 std::vector<std::string> paths_of(const std::vector<MotionInput>& inputs) {

@@ -29,6 +29,14 @@ std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
                                       const std::filesystem::path& out = {},
                                       std::ostream* messages = nullptr);
 
+/// A command that is repeated reads its folders of inputs again: none of its results may lie in one of them.
+/// A folder of inputs may have the output folder in it, which is skipped there.
+/// @param inputs   files and folders as they were given @param out  folder that the command writes to
+/// @param results  the files below it that the command will write
+/// @throws record::OutputRefused naming the folder of inputs
+void require_results_apart(const std::vector<std::string>& inputs, const std::filesystem::path& out,
+                           const std::vector<std::filesystem::path>& results);
+
 std::vector<std::string> paths_of(const std::vector<MotionInput>& inputs);
 
 /// Their names made unique: the second one of the same name gets a number ("walk", "walk-2").

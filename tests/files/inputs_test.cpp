@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/temporary_folder.h"
+#include "record/outputs.h"
 
 namespace mimicx::files {
 namespace {
@@ -151,6 +152,26 @@ TEST_F(FindMotions, RejectsFoldersWithoutMotionsAndPointsIntoRuns) {
   EXPECT_EQ(complaint("run"), path("run") +
                                   ": expected motion files in this folder, found a run: its motions are in "
                                   "motions/");
+}
+
+TEST_F(FindMotions, RefusesResultsInAFolderOfInputs) {
+  touch("in/a.bvh");
+  touch("in/truth/b.bvh");
+  const auto refused = [&](const std::string& input, const std::string& out, const std::string& result) {
+    try {
+      require_results_apart({path(input)}, path(out), {path(out + "/" + result)});
+    } catch (const record::OutputRefused&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused("in", "in", "a.npz"));
+  EXPECT_TRUE(refused("in", "in/.", "truth/a.npz"));
+  EXPECT_TRUE(refused("in/truth", "in", "truth/b.npz"));
+  EXPECT_FALSE(refused("in/truth", "in", "b.npz")) << "above its inputs";
+  EXPECT_FALSE(refused("in", "in/out", "a.npz")) << "which is skipped";
+  EXPECT_FALSE(refused("in", "in-2", "a.npz"));
+  EXPECT_FALSE(refused("in/a.bvh", "in", "a.npz")) << "no folder is read";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Many motions: folders of folders, and a run that is killed.
 #include "core/file.h"
+#include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "program/cli.h"
 #include "run/results.h"
@@ -44,6 +45,38 @@ TEST_F(CliMany, OutputFolderOfTheInputsIsWrongUsage) {
   EXPECT_EQ(call.status, 2) << call.text;
   EXPECT_TRUE(says(call, "--out: expected a folder for the results alone")) << call.text;
   EXPECT_FALSE(std::filesystem::exists(path("in/manifest.json")));
+}
+
+// What the first command would write there, the second would read, or refuse to overwrite.
+TEST_F(CliMany, InputsAmongTheResultsAreWrongUsageAtOnce) {
+  for (const char* part : {"C", "C/motions", "C/rejected", "C/inputs", "C/references", "C/fits", "C/clean",
+                           "C/plans", "C/truth"}) {
+    std::filesystem::create_directories(path(part));
+    import::write_motion(path(part) + "/w.bvh", motion::standing_clip(20));
+  }
+  const auto before = run::results_of(path("C"));
+  const auto refused = [&](const std::string& command, const std::string& input) {
+    const Call call = mimicx(command + " " + path(input) + " --out " + path("C"));
+    EXPECT_EQ(call.status, 2) << command << ' ' << input << call.text;
+    EXPECT_TRUE(says(call, "--out: expected a folder for the results alone")) << call.text;
+    EXPECT_TRUE(says(call, path(input))) << call.text;
+    EXPECT_EQ(run::results_of(path("C")), before) << command << ' ' << input;
+  };
+  for (const char* input :
+       {"C", "C/motions", "C/rejected", "C/inputs", "C/references", "C/fits", "C/clean", "C/plans"})
+    refused("plan", input);
+  refused("imitate", "C/motions/w.bvh");
+  refused("teach", "C/plans");
+  refused("corrupt", "C/truth");
+  for (const char* command : {"pretrain", "teach", "corrupt", "fit"}) refused(command, "C");
+}
+
+TEST_F(CliMany, InputsMayLieInTheOutputFolderBesideTheResults) {
+  for (const char* command : {"plan ", "fit "})
+    for (const char* time : {"first", "second"}) {
+      const Call call = mimicx(command + path("in/CMU/01") + " --out " + path("in"));
+      EXPECT_EQ(call.status, 0) << command << ", " << time << call.text;
+    }
 }
 
 TEST_F(CliMany, CertificatesKeepTheFolderTreeOfTheRun) {
