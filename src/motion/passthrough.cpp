@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
+#include <numbers>
+#include <string_view>
 
 #include "core/so3.h"
 
@@ -42,12 +45,39 @@ NpyArray of_type(Type type, std::vector<std::size_t> shape, const Rows& values) 
   return NpyArray::from_float(std::move(shape), narrow.data());
 }
 
+bool contains_one_of(std::string_view name, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return name.find(word) != std::string_view::npos; });
+}
+
+/// Whether files have rotation vectors of joints under this name.
+bool names_rotations(std::string_view name) {
+  if (contains_one_of(name, {"keypoint", "2d", "3d", "conf", "pca"})) return false;
+  for (const std::string_view whole :
+       {"poses", "poses_rest", "smpl_poses", "fullpose", "full_pose", "thetas", "theta", "pose"})
+    if (name == whole) return true;
+  return contains_one_of(
+      name, {"orient", "body_pose", "pose_body", "hand_pose", "pose_hand", "pose_lhand", "pose_rhand",
+             "jaw_pose", "pose_jaw", "eye_pose", "pose_eye", "pose_leye", "pose_reye"});
+}
+
+/// Whether the rows are rotation vectors by their name, width and size: none is over a whole turn. A hand has
+/// 15 joints; of other widths it is given by coefficients.
+bool are_rotations(const std::string& name, const Eigen::Ref<const Rows>& rows) {
+  const Eigen::Index width = name.find("hand") != std::string::npos ? 45 : 3;
+  if (!names_rotations(name) || rows.cols() % width != 0) return false;
+  for (Eigen::Index r = 0; r < rows.rows(); ++r)
+    for (Eigen::Index c = 0; c < rows.cols(); c += 3)
+      if (rows.row(r).segment<3>(c).norm() > 2.0 * std::numbers::pi) return false;
+  return true;
+}
+
 NpyArray between_rows(const std::string& name, const NpyArray& array, std::size_t count, double ratio) {
   const std::vector<double> numbers = array.to_double();
   const auto rows = static_cast<Eigen::Index>(array.shape[0]);
   const auto columns = static_cast<Eigen::Index>(numbers.size()) / rows;
   const Eigen::Map<const Rows> from(numbers.data(), rows, columns);
-  const bool turns = name.find("pose") != std::string::npos && columns % 3 == 0;
+  const bool turns = are_rotations(name, from);
   Rows to(static_cast<Eigen::Index>(count), columns);
   for (std::size_t k = 0; k < count; ++k) {
     const RowsBetween at = locate_rows(static_cast<double>(k) * ratio, array.shape[0]);

@@ -27,9 +27,10 @@ RowsBetween locate_rows(double at, std::size_t rows);
 /// Whether a member has one row per frame.
 bool is_per_frame(const std::string& name, const NpyArray& array, std::size_t frames);
 
-/// Members at another frame rate: row k of the result is row k · ratio of the input. Rotations ("pose" in the
-/// name, triples of axis-angle) are interpolated by slerp, other floating-point numbers linearly; integers
-/// and texts are taken from the nearer frame. @param frames  of the input @param count  frames of the result
+/// Members at another frame rate: row k of the result is row k · ratio of the input. Rotations (axis-angle,
+/// by the names that files use for orientations and for poses of body, hands, jaw and eyes, and only where no
+/// angle is over a whole turn) are interpolated by slerp, other floating-point numbers linearly; integers and
+/// texts are taken from the nearer frame. @param frames  of the input @param count  frames of the result
 Passthrough resampled_members(const Passthrough& members, std::size_t frames, std::size_t count,
                               double ratio);
 

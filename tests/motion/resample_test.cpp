@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
 #include "motion/full_clip.h"
 #include "motion/made_motions.h"
+#include "motion/passthrough.h"
 
 namespace mimicx::motion {
 namespace {
@@ -90,6 +95,48 @@ TEST(Resample, ResamplesPerFrameMembersAndKeepsTheOthers) {
     EXPECT_EQ(at(i).bytes, clip.passthrough[static_cast<std::size_t>(i)].second.bytes);
     EXPECT_EQ(at(i).shape, clip.passthrough[static_cast<std::size_t>(i)].second.shape);
   }
+}
+
+/// The middle of two rows, as resampling to twice the rate gives it.
+std::vector<double> halfway(const std::string& name, const std::vector<double>& first,
+                            const std::vector<double>& second) {
+  std::vector<double> rows = first;
+  rows.insert(rows.end(), second.begin(), second.end());
+  const Passthrough members = {{name, NpyArray::from_double({2, first.size()}, rows.data())}};
+  const std::vector<double> all = resampled_members(members, 2, 3, 0.5)[0].second.to_double();
+  return {all.begin() + static_cast<std::ptrdiff_t>(first.size()),
+          all.begin() + static_cast<std::ptrdiff_t>(2 * first.size())};
+}
+
+TEST(Resample, RotationsGoTheShortWayUnderEveryNameOfTheirs) {
+  for (const auto& [name, columns] : {std::pair<const char*, std::size_t>{"global_orient_incam", 3},
+                                      {"root_orient", 3},
+                                      {"poses_rest", 99},
+                                      {"body_pose_incam", 63},
+                                      {"pose_lhand", 45},
+                                      {"left_hand_pose", 45},
+                                      {"pose_hand", 90},
+                                      {"jaw_pose", 3},
+                                      {"pose_eye", 6},
+                                      {"fullpose", 165}}) {
+    std::vector<double> first(columns, 0.0), second(columns, 0.0);
+    first[0] = 3.0, second[0] = -3.0;  // 0.28 rad apart, on either side of half a turn
+    EXPECT_NEAR(std::abs(halfway(name, first, second)[0]), std::numbers::pi, 1e-9) << name;
+  }
+}
+
+TEST(Resample, NumbersThatAreNoRotationsAreInterpolatedLinearly) {
+  for (const auto& [name, first, second] :
+       {std::tuple<const char*, std::vector<double>, std::vector<double>>{
+            "pose_keypoints_2d", {500, 200, 0.9}, {510, 220, 0.7}},
+        {"pose_keypoints_3d", {3, 0, 0}, {-3, 0, 0}},
+        {"left_hand_pose", {3, 0, 0, 1, 0, 0}, {-3, 0, 0, 0, 1, 0}},
+        {"pose_hand_pca", std::vector<double>(45, 2.0), std::vector<double>(45, -1.0)},
+        {"poses_conf", {3, 0, 0}, {-3, 0, 0}},
+        {"pose_embedding", {3, 0, 0}, {-3, 0, 0}},
+        {"body_pose", {500, 200, 1}, {510, 220, 1}}})
+    for (std::size_t c = 0; c < first.size(); ++c)
+      EXPECT_NEAR(halfway(name, first, second)[c], 0.5 * (first[c] + second[c]), 1e-12) << name;
 }
 
 TEST(Resample, ARoundedRateLosesNoFrame) {
