@@ -86,7 +86,7 @@ NpyArray columns_from(const NpyArray& array, std::size_t first) {
 /// Keeps columns of the poses for hands, jaw and eyes. They are written to the same columns again, even if
 /// the file also has them as named arrays. Their order does not matter here.
 void keep_other_columns(const Member& poses, std::size_t used, Clip& clip) {
-  if (poses.columns() <= used || poses.rows() != clip.rotations.size()) return;
+  if (poses.columns() <= used) return;
   NpyArray flat = poses.array;
   flat.shape = {poses.rows(), poses.columns()};
   clip.passthrough.emplace_back("poses_rest", columns_from(flat, used));
@@ -144,10 +144,14 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
       for (std::size_t j = 0; j < kJoints; ++j)
         clip.rotations[t][j + 1] = vector_at(body.values, columns * t + 3 * j);
     }
-    if (npz.has("poses") && npz.at("poses").type != NpyArray::Type::kText)
-      keep_other_columns(Member(npz, "poses"), kPoseColumns, clip);
-    else
+    if (npz.has("poses") && npz.at("poses").type != NpyArray::Type::kText) {
+      const Member poses(npz, "poses");
+      if (poses.rows() != frames)
+        poses.fail(std::to_string(frames) + " frames as in " + root_key, poses.shape());
+      keep_other_columns(poses, kPoseColumns, clip);
+    } else {
       keep_other_columns(body, 3 * kJoints, clip);
+    }
     return columns == 3 * kJoints ? "smplx" : "smpl";
   }
   if (poses_key.empty()) fail_without_rotations(npz);

@@ -170,6 +170,14 @@ TEST(ClipFile, AmassFileOfSmplxKeepsAllColumns) {
       EXPECT_EQ(back.at("poses").to_double()[165 * t + c], poses.to_double()[165 * t + c]);
 }
 
+TEST(ClipFile, PosesBesideNamedArraysMustHaveTheirFrames) {
+  Npz npz = amass(165);
+  npz.set("root_orient", test::counted(3, 3, 7.0));
+  npz.set("pose_body", test::counted(3, 63, 8.0));
+  npz.set("poses", test::counted(4, 165));
+  expect_refusal(npz, "poses: expected 3 frames as in root_orient, found shape (4, 165)");
+}
+
 TEST(ClipFile, WritesHandsAndJawOfNamedArraysIntoPoses) {
   Npz npz;
   npz.set("root_orient", test::counted(3, 3, 7.0));
