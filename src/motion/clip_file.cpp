@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/number_text.h"
+#include "core/so3.h"
 #include "motion/keypoint_members.h"
 #include "motion/npz_member.h"
+#include "motion/passthrough.h"
 
 namespace mimicx::motion {
 namespace {
@@ -30,6 +33,22 @@ std::string found_among(const Names& names, const Npz& npz) {
   return {};
 }
 
+/// The members that the poses are read from; empty: none. Where there are root and body, `poses` is not read
+/// but for hands and face.
+struct Sources {
+  std::string root, body, poses, trans;
+
+  explicit Sources(const Npz& npz)
+      : root(found_among(kRoot, npz)), body(found_among(kBody, npz)), trans(found_among(kTrans, npz)) {
+    if (!root.empty() && !body.empty()) return;
+    root.clear();
+    body.clear();
+    poses = found_among(kPoses, npz);
+  }
+  bool named() const { return !root.empty(); }
+  std::string rotations() const { return named() ? root + " with " + body : poses; }
+};
+
 /// A text; the first of several that are equal. None where the member is something else.
 std::optional<std::string> member_text(const Npz& npz, const std::string& key) {
   const NpyArray& array = npz.at(key);
@@ -37,6 +56,12 @@ std::optional<std::string> member_text(const Npz& npz, const std::string& key) {
       std::count(array.text.begin(), array.text.end(), array.text[0]) != std::ssize(array.text))
     return std::nullopt;
   return array.text[0];
+}
+
+std::string listed(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 /// The file's frame rate. Where it has several that differ, the first counts, with a warning.
@@ -121,21 +146,19 @@ void expect_axis_angle(const Member& member) {
 }
 
 /// Fills the rotations; returns the body model of the layout.
-std::string read_rotations(const Npz& npz, Clip& clip) {
+std::string read_rotations(const Npz& npz, const Sources& sources, Clip& clip) {
   const auto vector_at = [](const std::vector<double>& v, std::size_t at) {
     return Vector3d(v[at], v[at + 1], v[at + 2]);
   };
-  const std::string root_key = found_among(kRoot, npz), body_key = found_among(kBody, npz),
-                    poses_key = found_among(kPoses, npz);
-  if (!root_key.empty() && !body_key.empty()) {
-    const Member root(npz, root_key), body(npz, body_key);
+  if (sources.named()) {
+    const Member root(npz, sources.root), body(npz, sources.body);
     expect_axis_angle(root);
     expect_axis_angle(body);
     const std::size_t frames = root.rows(), columns = body.columns();
     if (root.columns() != 3) root.fail("shape (frames, 3)", root.shape());
     if (columns != 3 * kJoints && columns != 3 * kJoints + 6)
       body.fail("shape (frames, 63) or (frames, 69)", body.shape());
-    if (body.rows() != frames) body.fail(std::to_string(frames) + " frames as in " + root_key, body.shape());
+    if (body.rows() != frames) body.fail(std::to_string(frames) + " frames as in " + root.key, body.shape());
     root.expect_finite_columns(3);
     body.expect_finite_columns(3 * kJoints);
     clip.rotations.resize(frames);
@@ -147,15 +170,15 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
     if (npz.has("poses") && npz.at("poses").type != NpyArray::Type::kText) {
       const Member poses(npz, "poses");
       if (poses.rows() != frames)
-        poses.fail(std::to_string(frames) + " frames as in " + root_key, poses.shape());
+        poses.fail(std::to_string(frames) + " frames as in " + root.key, poses.shape());
       keep_other_columns(poses, kPoseColumns, clip);
     } else {
       keep_other_columns(body, 3 * kJoints, clip);
     }
     return columns == 3 * kJoints ? "smplx" : "smpl";
   }
-  if (poses_key.empty()) fail_without_rotations(npz);
-  const Member poses(npz, poses_key);
+  if (sources.poses.empty()) fail_without_rotations(npz);
+  const Member poses(npz, sources.poses);
   expect_axis_angle(poses);
   const std::size_t columns = poses.columns();
   if (columns == 0) poses.fail("shape (frames, 66, 72, 156 or 165)", poses.shape());
@@ -168,6 +191,87 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
       clip.rotations[t][j] = vector_at(poses.values, columns * t + 3 * j);
   keep_other_columns(poses, kPoseColumns, clip);
   return columns == 72 ? "smpl" : columns == 156 ? "smplh" : "smplx";
+}
+
+/// The largest angle between rotation vectors and those of the clip's bodies from `first` on, rad; 0 where
+/// the member has other rows, or another width.
+double largest_turn(const Member& member, std::initializer_list<std::size_t> widths, std::size_t first,
+                    const Clip& clip) {
+  const std::size_t columns = member.columns(), bodies = std::min(*widths.begin() / 3, kBodies - first);
+  if (member.rows() != clip.rotations.size() ||
+      std::find(widths.begin(), widths.end(), columns) == widths.end())
+    return 0.0;
+  double largest = 0.0;
+  for (std::size_t t = 0; t < clip.rotations.size(); ++t)
+    for (std::size_t j = 0; j < bodies; ++j) {
+      const Vector3d turn = Eigen::Map<const Vector3d>(member.values.data() + columns * t + 3 * j);
+      largest = std::max(largest, exp_map(turn).angularDistance(exp_map(clip.rotations[t][first + j])));
+    }
+  return largest;
+}
+
+/// The largest distance between the rows of two members of one shape, in their unit; 0 of other shapes.
+double largest_distance(const Member& a, const Member& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; a.array.shape == b.array.shape && i + 2 < a.values.size(); i += 3)
+    largest = std::max(largest, (Eigen::Map<const Vector3d>(a.values.data() + i) -
+                                 Eigen::Map<const Vector3d>(b.values.data() + i))
+                                    .norm());
+  return largest;
+}
+
+/// Members that are not used, and how far each is from those that are.
+using Deviations = std::vector<std::pair<std::string, double>>;
+
+void warn_of(const std::string& what, const std::string& unit, const std::string& used,
+             const Deviations& others, Clip& clip) {
+  constexpr double kRounding = 1e-3;
+  std::string names;
+  double most = 0.0;
+  for (const auto& [name, by] : others)
+    if (by > kRounding) names += ", " + name, most = std::max(most, by);
+  if (!names.empty())
+    clip.warnings.push_back("two sources of " + what + ": " + used + names + " differ by up to " +
+                            formatted("%.3g", most) + unit + "; the first is used");
+}
+
+/// Warns where members say something else than those that are used in their place.
+void compare_sources(const Npz& npz, const Sources& used, Clip& clip) {
+  Deviations rotations, places;
+  const auto visit = [&](const Names& names, const auto& add) {
+    for (const std::string& name : names) {
+      const bool is_used = name == used.root || name == used.body || name == used.poses || name == used.trans;
+      if (!is_used && npz.has(name) && npz.at(name).type != NpyArray::Type::kText) add(Member(npz, name));
+    }
+  };
+  visit(kRoot, [&](const Member& m) { rotations.emplace_back(m.key, largest_turn(m, {3}, 0, clip)); });
+  visit(kBody, [&](const Member& m) { rotations.emplace_back(m.key, largest_turn(m, {63, 69}, 1, clip)); });
+  visit(kPoses, [&](const Member& m) {
+    rotations.emplace_back(m.key, largest_turn(m, {66, 72, 156, 165}, 0, clip));
+  });
+  const Member trans(npz, used.trans);
+  visit(kTrans, [&](const Member& m) { places.emplace_back(m.key, largest_distance(m, trans)); });
+  warn_of("rotations", " rad", used.rotations(), rotations, clip);
+  warn_of("places", "", used.trans, places, clip);
+}
+
+/// Other names of what is read, for poses and places those with a row per frame. They are not copied, because
+/// they would contradict a motion that has changed.
+Names other_names(const Npz& npz, const Sources& used, std::size_t frames) {
+  Names found;
+  const auto add = [&](const Names& names, const Names& read, bool per_frame) {
+    for (const std::string& name : names)
+      if (npz.has(name) && npz.at(name).type != NpyArray::Type::kText &&
+          std::find(read.begin(), read.end(), name) == read.end() &&
+          (!per_frame || is_per_frame(name, npz.at(name), frames)))
+        found.push_back(name);
+  };
+  add(kRoot, {used.root}, false);
+  add(kBody, {used.body}, false);
+  add(kPoses, {used.poses, "poses"}, true);  // `poses` is written anew
+  add(kTrans, {used.trans}, true);
+  add(kBetaNames, {found_among(kBetaNames, npz)}, false);
+  return found;
 }
 
 /// AIST++'s smpl_trans is in the unit of smpl_scaling, which is the size of the body in it; 1 in other files.
@@ -370,11 +474,11 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
   Clip clip;
   clip.name = name;
   check_joint_names(npz);
-  clip.body_model = read_body_model(npz, read_rotations(npz, clip));
+  const Sources sources(npz);
+  clip.body_model = read_body_model(npz, read_rotations(npz, sources, clip));
   const std::size_t frames = clip.rotations.size();
   if (frames == 0) throw DataError(npz.path, "", "at least one frame", "none");
-  const std::string trans_key = found_among(kTrans, npz);
-  const Member trans(npz, trans_key.empty() ? kTrans[0] : trans_key);
+  const Member trans(npz, sources.trans.empty() ? kTrans[0] : sources.trans);
   if (trans.columns() != 3) trans.fail("shape (frames, 3)", trans.shape());
   trans.expect_finite_columns(3);
   if (trans.rows() != frames)
@@ -382,17 +486,25 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
   const double unit = scaling_of(npz);
   for (std::size_t t = 0; t < frames; ++t)
     clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t) / unit);
+  compare_sources(npz, sources, clip);
   clip.fps = read_fps(npz, config.fps, clip);
   read_rest_joints(npz, clip);
   read_betas(npz, clip);
   clip.scene = scene_of(npz);
   if (npz.has("gender")) clip.gender = member_text(npz, "gender").value_or("neutral");
 
-  Names used = {"rest_joints",        "gender",       "joint_names", "joints", "body_model",
-                "surface_model_type", "smpl_scaling", kSceneMember};
-  for (const Names& names : {kPoses, kRoot, kBody, kTrans, kRates, kBetaNames})
-    used.insert(used.end(), names.begin(), names.end());
+  const Names others = other_names(npz, sources, frames);
+  Names used = {"rest_joints",  "gender",
+                "joint_names",  "joints",
+                "body_model",   "surface_model_type",
+                "smpl_scaling", kSceneMember,
+                sources.root,   sources.body,
+                sources.poses,  "poses",
+                sources.trans,  found_among(kBetaNames, npz)};
+  for (const Names& names : {kRates, others}) used.insert(used.end(), names.begin(), names.end());
   if (read_keypoints(npz, clip)) used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
+  if (!others.empty())
+    clip.decisions.push_back("not copied: " + listed(others) + " (other names of members that are used)");
   for (const auto& [key, array] : npz.members())
     if (std::find(used.begin(), used.end(), key) == used.end()) clip.passthrough.emplace_back(key, array);
   for (const auto& [key, why] : npz.unsupported())

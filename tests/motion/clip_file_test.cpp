@@ -238,6 +238,67 @@ TEST(ClipFile, TwoRatesThatDisagreeGiveAWarning) {
       << clip.warnings[0];
 }
 
+/// The columns of `poses` as named arrays beside it.
+Npz with_named_arrays(const Npz& usual) {
+  Npz npz = usual;
+  const Eigen::MatrixXd poses = to_matrix(usual.at("poses"));
+  npz.set("root_orient", from_matrix(poses.leftCols(3)));
+  npz.set("pose_body", from_matrix(poses.middleCols(3, 63)));
+  return npz;
+}
+
+TEST(ClipFile, TwoSourcesOfRotationsThatDifferGiveAWarning) {
+  Npz still = amass(165);
+  still.set("poses", from_matrix(Eigen::MatrixXd::Zero(3, 165)));
+  Npz npz = with_named_arrays(still);
+  EXPECT_TRUE(read(npz).warnings.empty());
+  EXPECT_TRUE(read(npz).decisions.empty()) << "poses are written anew";
+  npz.set("poses", with_value(npz.at("poses"), 165, 1.5));
+  npz.set("fullpose", with_value(npz.at("poses"), 165 + 65, 0.1));
+  const Clip clip = read(npz);
+  EXPECT_EQ(clip.rotations[1][0], Vector3d(0, 0, 0));
+  ASSERT_EQ(clip.warnings.size(), 1u);
+  EXPECT_EQ(clip.warnings[0],
+            "two sources of rotations: root_orient with pose_body, poses, fullpose differ by up to 1.5 rad; "
+            "the first is used");
+}
+
+TEST(ClipFile, TwoSourcesOfPlacesThatDifferGiveAWarning) {
+  Npz npz = amass();
+  npz.set("transl", with_value(npz.at("trans"), 4, 3.5));
+  ASSERT_EQ(read(npz).warnings.size(), 1u);
+  EXPECT_NE(read(npz).warnings[0].find("two sources of places: trans, transl differ by up to 96.5;"),
+            std::string::npos)
+      << read(npz).warnings[0];
+}
+
+TEST(ClipFile, RoundingIsNoSecondSource) {
+  Npz npz = amass();
+  std::vector<float> narrow;
+  npz.set("poses", from_matrix(0.02 * to_matrix(npz.at("poses"))));
+  for (const double value : npz.at("poses").to_double()) narrow.push_back(static_cast<float>(value));
+  npz.set("thetas", NpyArray::from_float({3, 66}, narrow.data()));
+  EXPECT_TRUE(read(npz).warnings.empty());
+}
+
+TEST(ClipFile, OtherNamesOfTheMotionAreNotCopiedAndSaidButForeignMembersOfTheseNamesAre) {
+  Npz npz = amass();
+  npz.set("transl", npz.at("trans"));
+  npz.set("root_orient", from_matrix(to_matrix(npz.at("poses")).leftCols(3)));
+  npz.set("beta", npz.at("betas"));
+  npz.set("pose", test::counted(4, 4));
+  npz.set("theta", NpyArray::scalar_text("of the cone"));
+  const Clip clip = read(npz);
+  EXPECT_TRUE(clip.warnings.empty());
+  ASSERT_EQ(clip.decisions.size(), 1u);
+  EXPECT_EQ(clip.decisions[0],
+            "not copied: root_orient, transl, beta (other names of members that are used)");
+  const Npz back = to_npz(clip);
+  for (const char* key : {"transl", "root_orient", "beta"}) EXPECT_FALSE(back.has(key)) << key;
+  EXPECT_EQ(back.at("pose").bytes, npz.at("pose").bytes) << "no motion: it has other rows";
+  EXPECT_EQ(back.at("theta").text, npz.at("theta").text);
+}
+
 TEST(ClipFile, ReadsTheNamesOfOtherPrograms) {
   const Npz usual = amass();
   const Clip want = read(usual);
