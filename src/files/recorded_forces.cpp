@@ -19,13 +19,30 @@ constexpr Array<std::string_view, 12> kRecorded = {
     "foot_force_least", "foot_force_most", "foot_force_least_effort",
     "body_weight",      "friction",        "physics_rate"};
 
+/// Whether a row of the member has the shape of ours; the number of rows may be wrong.
+bool has_our_rows(const NpyArray& array, const std::vector<std::size_t>& row) {
+  return array.type != NpyArray::Type::kText && array.shape.size() == row.size() + 1 &&
+         std::equal(row.begin(), row.end(), array.shape.begin() + 1);
+}
+
+/// Whether a motion of this body may come from our simulator.
+bool may_be_simulated(const motion::Clip& clip) {
+  return clip.body_model == "mimicx" || clip.rest_joints.has_value();
+}
+
 }  // namespace
 
-std::optional<RecordedForces> recorded_forces(const motion::Clip& clip) {
+std::optional<RecordedForces> recorded_forces(const motion::Clip& clip, const std::string& file) {
+  if (!may_be_simulated(clip)) return std::nullopt;
   Npz npz;
-  npz.path = clip.name;
-  for (const auto& [name, array] : clip.passthrough)
-    if (name == kGround || name == kTorques) npz.set(name, array);
+  npz.path = file.empty() ? clip.name : file;
+  for (const auto& [name, array] : clip.passthrough) {
+    if (name != kGround && name != kTorques) continue;
+    const bool ours = has_our_rows(
+        array, name == kGround ? std::vector<std::size_t>{kBodies, 6} : std::vector<std::size_t>{kDofs});
+    if (!ours) return std::nullopt;  // another program's
+    npz.set(name, array);
+  }
   if (npz.members().empty()) return std::nullopt;
   const auto rows = static_cast<std::size_t>(clip.frames());
   const WrenchRows ground = read_wrenches(npz, kGround, rows);
@@ -35,8 +52,9 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip) {
 
 double recorded_gravity(const motion::Clip& clip) {
   constexpr double kRounding = 1e-6;  // of the file's numbers, relative
+  if (!may_be_simulated(clip)) return kGravity;
   for (const auto& [name, array] : clip.passthrough) {
-    if (name != kWeight || array.size() != 1) continue;
+    if (name != kWeight || array.size() != 1 || array.type == NpyArray::Type::kText) continue;
     const double gravity = array.to_double().front() / motion::character_of(clip).total_mass();
     return std::abs(gravity - kGravity) < kRounding * kGravity ? kGravity : gravity;
   }

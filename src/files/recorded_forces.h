@@ -21,9 +21,12 @@ struct RecordedForces {
   PerFrame<PerBody<Vector3d>> torque;  ///< [frames] from the joint on the body, its own frame, N·m; 0 unused
 };
 
-/// The forces among the members of the file that the clip was read from; none if it has no forces.
-/// @throws DataError naming clip and member if a member is missing or of another shape
-std::optional<RecordedForces> recorded_forces(const motion::Clip& clip);
+/// The forces among the members of the file that the clip was read from; none if it has no forces. Members of
+/// these names are another program's where the body is not one that we simulate, or their rows have another
+/// shape than ours.
+/// @param file  that it was read from, for messages; empty: the clip's name stands for it
+/// @throws DataError naming file and member if one of the two is missing, has other frames or is not finite
+std::optional<RecordedForces> recorded_forces(const motion::Clip& clip, const std::string& file = {});
 
 /// m/s², of the simulation that a motion comes from, by its member `body_weight`; of other motions kGravity.
 double recorded_gravity(const motion::Clip& clip);

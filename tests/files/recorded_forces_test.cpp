@@ -21,6 +21,33 @@ TEST(RecordedForces, MissingMemberIsAnErrorAndNoMembersIsEmpty) {
   EXPECT_THROW(recorded_forces(clip), DataError) << "forces of another number of frames";
 }
 
+TEST(RecordedForces, MembersOfOtherProgramsAreNoForcesOfOurs) {
+  motion::Clip foreign = pushed_clip(4);
+  foreign.body_model = "smplh";
+  EXPECT_FALSE(recorded_forces(foreign).has_value()) << "another body";
+  foreign.rest_joints = RestJoints{};
+  EXPECT_TRUE(recorded_forces(foreign).has_value()) << "the user's own body, with which we simulate";
+  for (const auto& [member, shape] :
+       {std::pair<std::size_t, std::vector<std::size_t>>{0, {4, 2, 6}}, {1, {4, 69}}, {1, {4, 23, 3}}}) {
+    motion::Clip clip = pushed_clip(4);
+    const std::vector<double> zeros(4 * 69, 0.0);
+    clip.passthrough[member].second = NpyArray::from_double(shape, zeros.data());
+    EXPECT_FALSE(recorded_forces(clip).has_value()) << clip.passthrough[member].first;
+  }
+}
+
+TEST(RecordedForces, ErrorsNameTheFile) {
+  motion::Clip clip = pushed_clip(4);
+  clip.passthrough.pop_back();
+  try {
+    recorded_forces(clip, "runs/walk.npz");
+    FAIL() << "one of the two members is missing";
+  } catch (const DataError& error) {
+    EXPECT_EQ(std::string(error.what()).find("runs/walk.npz: expected member 'joint_torques'"), 0u)
+        << error.what();
+  }
+}
+
 TEST(RecordedForces, GravityIsThatOfTheSimulation) {
   motion::Clip clip = pushed_clip(4);
   EXPECT_EQ(recorded_gravity(clip), kGravity);
@@ -29,6 +56,11 @@ TEST(RecordedForces, GravityIsThatOfTheSimulation) {
   EXPECT_EQ(recorded_gravity(clip), kGravity);
   clip.passthrough.back().second = NpyArray::scalar(5.0 * mass);
   EXPECT_NEAR(recorded_gravity(clip), 5.0, 1e-12);
+  clip.body_model = "smplx";
+  EXPECT_EQ(recorded_gravity(clip), kGravity) << "another program's member";
+  clip.body_model = "mimicx";
+  clip.passthrough.back().second = NpyArray::scalar_text("70 kg");
+  EXPECT_EQ(recorded_gravity(clip), kGravity);
 }
 
 TEST(RecordedForces, SimulationIsTheOneWhoseMembersAreThere) {

@@ -28,7 +28,7 @@ void write_exchange(const std::filesystem::path& path, const motion::Clip& clip,
                     const ExchangeConfig& config) {
   const std::string suffix = import::lower_suffix(path);
   const bool lost = !config.forces_lost.empty();
-  const std::optional<RecordedForces> forces = lost ? std::nullopt : recorded_forces(clip);
+  const std::optional<RecordedForces> forces = lost ? std::nullopt : recorded_forces(clip, source);
   if (!forces && (suffix == ".mot" || suffix == ".sto" || (suffix == ".glb" && config.arrows)))
     throw DataError(source, "", "a motion with forces",
                     lost ? config.forces_lost : "none: mimicx plan writes motions with forces");
