@@ -103,6 +103,55 @@ TEST(Markers, NameLineExpectedAndFoundOfBadFiles) {
   EXPECT_NE(with("Units", "Unit").find("expected a value of Units, found none"), std::string::npos);
 }
 
+TEST(Markers, CellsBehindTheLastMarkerAreRefused) {
+  std::string text = kSmall;
+  text.insert(text.find("\t1\t2\t3\r\n") + 6, "\t \t");
+  EXPECT_NO_THROW(parse_trc(text, "small.trc")) << "blank ones";
+  text = kSmall;
+  text.insert(text.find("\t1\t2\t3\r\n"), "\t7");
+  EXPECT_EQ(message([&] { parse_trc(text, "small.trc"); }),
+            "small.trc: line 8: expected 8 cells divided by tabs, found '9 cells'");
+}
+
+/// A file of one marker. @param rows  Frame# and Time of each row
+std::string counted_rows(const std::vector<std::string>& rows) {
+  std::string text = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n60\t" +
+                     std::to_string(rows.size()) + "\t1\tmm\nFrame#\tTime\tR.ASIS\t\t\n\t\tX1\tY1\tZ1\n";
+  for (const std::string& row : rows) text += row + "\t1\t2\t3\n";
+  return text;
+}
+
+TEST(Markers, RowsThatAreMissingOrOutOfOrderAreRefused) {
+  const std::vector<std::string> sound = {"1\t0.000", "2\t0.017", "3\t0.033", "4\t0.050",
+                                          "5\t0.067", "6\t0.083", "7\t0.100"};
+  const auto said = [](const std::vector<std::string>& rows) {
+    return message([&] { parse_trc(counted_rows(rows), "a.trc"); });
+  };
+  EXPECT_EQ(said(sound), "");
+  std::vector<std::string> rows = sound;
+  rows.erase(rows.begin() + 3);
+  EXPECT_EQ(said(rows), "a.trc: line 9: expected Frame# 4 (one step after 3), found '5'");
+  for (std::string& row : rows) row = row.substr(1);
+  EXPECT_NE(said(rows).find("a.trc: line 9: expected Time 0.0"), std::string::npos) << said(rows);
+  rows = sound;
+  std::swap(rows[2], rows[4]);
+  EXPECT_EQ(said(rows), "a.trc: line 8: expected Frame# 3 (one step after 2), found '5'");
+  EXPECT_NE(said({sound.rbegin(), sound.rend()}), "");
+  rows = sound;
+  rows[3] = rows[2];
+  EXPECT_NE(said(rows).find("line 9"), std::string::npos) << said(rows);
+}
+
+TEST(Markers, CountersThatRoundOrSayNothingAreNoErrors) {
+  for (const std::vector<std::string>& rows :
+       {std::vector<std::string>{"1\t0.00", "2\t0.01", "3\t0.02", "4\t0.02", "5\t0.03", "6\t0.04"},
+        {"2\t0", "4\t0.0333", "6\t0.0667", "8\t0.1", "10\t0.1333"},
+        {"\t", "\t", "\t", "\t"},
+        {"0\t0", "0\t0", "0\t0", "0\t0"},
+        {"1\t0:00", "2\t0:01", "3\t0:07"}})
+    EXPECT_EQ(message([&] { parse_trc(counted_rows(rows), "a.trc"); }), "") << rows[1];
+}
+
 TEST(Markers, ShortGapsAreFilledAndLongOnesSaid) {
   Track track;
   for (int t = 0; t < 60; ++t) track.emplace_back(t, 2.0 * t, -t);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/number_text.h"
+#include "core/quantile.h"
 #include "import/retarget/skeleton.h"
 #include "import/text_input.h"
 
@@ -43,8 +45,12 @@ class Lines {
     return cells;
   }
   bool at_end() const { return text_.find_first_not_of(" \t\r\n", at_) == std::string_view::npos; }
+  std::size_t number() const { return number_; }
   [[noreturn]] void fail(const std::string& expected, std::string_view found) const {
-    throw DataError(path_, "line " + std::to_string(number_), expected,
+    fail_at(number_, expected, found);
+  }
+  [[noreturn]] void fail_at(std::size_t line, const std::string& expected, std::string_view found) const {
+    throw DataError(path_, "line " + std::to_string(line), expected,
                     found.empty() ? "none" : "'" + printable(found) + "'");
   }
 
@@ -89,6 +95,58 @@ Vector3d place_of(const std::string_view* cells, const Lines& lines) {
   return place.isZero(0.0) ? Vector3d(place * std::numeric_limits<double>::quiet_NaN()) : place;
 }
 
+/// The column Frame# or Time, which counts the rows by equal steps where all of its cells are numbers.
+class Counter {
+ public:
+  explicit Counter(std::string name) : name_(std::move(name)) {}
+
+  void add(std::string_view cell, std::size_t line) {
+    double value = 0.0;
+    is_known_ = is_known_ && parse_number(cell, value);
+    values_.push_back(value);
+    lines_.push_back(line);
+    const std::size_t point = cell.find('.');
+    if (point != std::string_view::npos) decimals_ = std::max(decimals_, cell.size() - point - 1);
+  }
+  /// From the first to the last row; 0 where it is not known.
+  double span() const { return is_known_ && !values_.empty() ? values_.back() - values_.front() : 0.0; }
+  /// Throws where a row is missing, is there twice or stands in another place: where it is half a step beside
+  /// its place, or more than what the decimals round.
+  void expect_equal_steps(const Lines& lines) const {
+    const double step = usual_step();
+    if (step == 0.0) return;
+    const double rounding = decimals_ == 0 ? 0.0 : 1.01 * std::pow(10.0, -static_cast<double>(decimals_));
+    for (std::size_t k = 1; k < values_.size(); ++k)
+      if (std::abs(values_[k] - values_[k - 1] - step) > std::max(0.5 * step, rounding))
+        lines.fail_at(
+            lines_[k],
+            formatted("%s %.6g (one step after %.6g)", name_.c_str(), values_[k - 1] + step, values_[k - 1]),
+            formatted("%.6g", values_[k]));
+  }
+
+ private:
+  /// The median size of the steps; 0 where there is none.
+  double usual_step() const {
+    if (!is_known_ || values_.size() < 2) return 0.0;
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < values_.size(); ++k) steps.push_back(std::abs(values_[k] - values_[k - 1]));
+    return median(steps);
+  }
+
+  std::string name_;
+  std::vector<double> values_;
+  std::vector<std::size_t> lines_;
+  std::size_t decimals_ = 0;
+  bool is_known_ = true;
+};
+
+/// Number of cells up to the last one that is not blank.
+std::size_t filled(const std::vector<std::string_view>& cells) {
+  std::size_t count = cells.size();
+  while (count > 0 && cells[count - 1].empty()) --count;
+  return count;
+}
+
 }  // namespace
 
 Markers parse_trc(std::string_view text, const std::string& path, std::optional<double> metres) {
@@ -112,23 +170,25 @@ Markers parse_trc(std::string_view text, const std::string& path, std::optional<
   markers.tracks.resize(markers.names.size());
   const std::size_t columns = 2 + 3 * markers.names.size();
   std::size_t rows = 0;
-  double start = 0.0, end = 0.0;
-  bool timed = true;
+  Counter numbers("Frame#"), times("Time");
   while (!lines.at_end()) {
     const auto cells = lines.next();
     if (cells.size() == 1 && cells[0].empty()) continue;
-    if (cells.size() < columns)
-      lines.fail(std::to_string(columns) + " cells divided by tabs", std::to_string(cells.size()) + " cells");
+    const std::size_t found = std::min(cells.size(), std::max(columns, filled(cells)));
+    if (found != columns)
+      lines.fail(std::to_string(columns) + " cells divided by tabs", std::to_string(found) + " cells");
     if (++rows * markers.names.size() > kMaxJointFrames)
       lines.fail("a motion that fits into memory", cells[0]);
-    timed = timed && parse_number(cells[1], end);
-    if (rows == 1) start = end;
+    numbers.add(cells[0], lines.number());
+    times.add(cells[1], lines.number());
     for (std::size_t i = 0; i < markers.names.size(); ++i)
       markers.tracks[i].push_back(markers.unit * place_of(&cells[2 + 3 * i], lines));
   }
   if (static_cast<double>(rows) != frames)
     lines.fail("as many rows as NumFrames says", std::to_string(rows) + " rows");
-  if (timed) markers.seconds = end - start;
+  numbers.expect_equal_steps(lines);
+  times.expect_equal_steps(lines);
+  markers.seconds = times.span();
   return markers;
 }
 

@@ -5,7 +5,8 @@
 /// … A cell that is blank or no number ("nan"), and a marker at (0, 0, 0), say that a marker was not seen.
 /// Format: OpenSim, "Marker (.trc) Files" of its User's Guide.
 ///
-/// What it does not do: axes stay as they are (y up by OpenSim's custom), the column of times is not used.
+/// What it does not do: axes stay as they are (y up by OpenSim's custom). Frame# and Time only show that no
+/// row is missing or out of order; the rate is DataRate.
 #pragma once
 
 #include <optional>
@@ -32,7 +33,8 @@ struct Markers {
 
 /// @param path   for messages
 /// @param metres  per unit of the file, whatever Units says; none: by Units
-/// @throws DataError for a header that lacks one of these, and for rows of another number or length
+/// @throws DataError for a header that lacks one of these, for rows of another number or length, and where
+/// Frame# or Time does not go on by one step
 Markers parse_trc(std::string_view text, const std::string& path, std::optional<double> metres = {});
 
 /// Fills gaps of at most 0.2 s: between two frames by the cubic with the speeds around the gap, at the ends
