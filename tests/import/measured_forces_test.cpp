@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -41,17 +42,25 @@ TEST(MeasuredForces, ReadsTheColumnNamesOfNewerFiles) {
   EXPECT_EQ(measured_forces_from(text, "x.mot").samples[0].force[1].z(), 700.0);
 }
 
+/// The text with another number in its header.
+std::string with_said(std::string text, const std::string& key, int number) {
+  const std::size_t at = text.find(key + '=') + key.size() + 1;
+  return text.replace(at, text.find('\n', at) - at, std::to_string(number));
+}
+
 /// The text with a further column behind each of its rows.
 std::string with_column(const std::string& text, const std::string& name, const std::string& value) {
   std::istringstream lines(text);
   std::string out;
   bool in_table = false, heads = false;
+  int columns = 0;
   for (std::string line; std::getline(lines, line);) {
     heads = !in_table && line.starts_with("time\t");
     in_table = in_table || heads;
+    if (heads) columns = 2 + static_cast<int>(std::count(line.begin(), line.end(), '\t'));
     out += line + (heads ? '\t' + name : in_table ? '\t' + value : "") + '\n';
   }
-  return out;
+  return with_said(out, "nColumns", columns);
 }
 
 TEST(MeasuredForces, FurtherPlateUnderLoadIsRefused) {
@@ -82,7 +91,7 @@ TEST(MeasuredForces, RestOfTheBodyIsReadAndThenAllForcesAreKnown) {
 /// A .mot of 2 s with 100 rows a second. @param load  (time, whether of the right foot) → N
 template <class Load>
 MeasuredForces forces_under(const Load& load) {
-  std::string text = kOldMot.substr(0, kOldMot.find("0\t1\t700"));
+  std::string text = with_said(kOldMot.substr(0, kOldMot.find("0\t1\t700")), "nRows", 201);
   for (int i = 0; i <= 200; ++i) {
     text += std::to_string(i / 100.0);
     for (const bool right : {true, false})
@@ -145,8 +154,34 @@ TEST(MeasuredForces, ErrorsSayWhatWasExpected) {
   EXPECT_NE(message(text + "0.005\t1\n").find("a number per column"), std::string::npos);
   EXPECT_NE(message(text.replace(text.find("0.01\t"), 5, "0\t")).find("times that increase"),
             std::string::npos);
-  EXPECT_NE(message(kOldMot.substr(0, kOldMot.find("0\t1\t700"))).find("at least one sample"),
+  EXPECT_NE(message(with_said(kOldMot.substr(0, kOldMot.find("0\t1\t700")), "nRows", 0))
+                .find("at least one sample"),
             std::string::npos);
+}
+
+TEST(MeasuredForces, RowsAndColumnsMustBeAsManyAsTheHeaderSays) {
+  const auto message = [](const std::string& text) {
+    try {
+      measured_forces_from(text, "walk.mot");
+    } catch (const DataError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message(kOldMot.substr(0, kOldMot.find("0.01\t1"))),
+            "walk.mot: line 8: expected 2 rows, as the header says, found 1")
+      << "cut off behind a row";
+  EXPECT_EQ(message(with_said(kOldMot, "nColumns", 19)),
+            "walk.mot: line 7: expected 19 columns, as the header says, found 13");
+  const auto with_rows = [](const std::string& line) {
+    std::string text = kOldMot;
+    return text.replace(text.find("nRows=2"), 7, line);
+  };
+  for (const std::string key : {"nRows = ", "nRows= ", "datarows ", "NROWS ="}) {
+    EXPECT_EQ(message(with_rows(key + "2\t\t")), "") << key;
+    EXPECT_NE(message(with_rows(key + "3\t\t")).find("expected 3 rows"), std::string::npos) << key;
+  }
+  EXPECT_EQ(message(with_rows("")), "");
 }
 
 TEST(MeasuredForces, ReadsTheForcesOfAnNpz) {

@@ -1,7 +1,7 @@
 /// OpenSim's storage files (.mot, .sto): a table of numbers over time.
 ///
-/// A name, lines such as "nRows=751", the line "endheader", a row of column names beginning with "time", and
-/// rows of numbers. Format: OpenSim, "Storage (.sto) Files" of its User's Guide.
+/// A name, lines such as "nRows=751" ("datarows 751" of SIMM), the line "endheader", a row of column names
+/// beginning with "time", and rows of numbers. Format: OpenSim, "Storage (.sto) Files" of its User's Guide.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,8 @@ struct StorageTable {
 };
 
 /// @param path  for messages
-/// @throws DataError for a text that is none, a row of another length, and times that do not increase
+/// @throws DataError for a text that is none, a row of another length, times that do not increase, and other
+/// numbers of rows or columns than the header says
 StorageTable parse_storage(std::string_view text, const std::string& path);
 
 }  // namespace mimicx::import
