@@ -135,7 +135,7 @@ void read_number(const std::uint8_t* p, const NpyFileType& t, std::uint8_t* out,
   else
     store(out, load<std::uint64_t>(p, big));
   if (is('u', 8) && load<std::int64_t>(out, false) < 0)
-    raise(DataError(path, place, "values under 2^63", "a larger one"));
+    raise(UnsupportedArray(path, place, "values under 2^63", "a larger one"));
 }
 
 /// Offset (in elements) in a fortran-ordered block of the element with C-order index `i`.

@@ -1,7 +1,7 @@
 /// NumPy arrays: reads npy files as NumPy writes them, and writes npy files that NumPy reads.
 ///
 /// Format: NumPy Enhancement Proposal 1 (npy). Not supported: object arrays (they are pickles, which run
-/// foreign code), complex and structured types.
+/// foreign code), complex and structured types, and whole numbers of 2^63 and more.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace mimicx {
 inline constexpr std::size_t kMaxMemberBytes = std::size_t{1} << 31;
 
 /// Parses one npy member. @param path, place  for messages.
-/// @throws DataError if it is damaged, UnsupportedArray if its element type is not supported.
+/// @throws DataError if it is damaged, UnsupportedArray if its elements are not supported.
 NpyArray parse_npy(const std::uint8_t* data, std::size_t size, const std::string& path,
                    const std::string& place, std::size_t max_bytes = kMaxMemberBytes);
 /// npy version 1.0, C order.

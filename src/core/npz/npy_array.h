@@ -10,7 +10,8 @@
 
 namespace mimicx {
 
-/// A valid npy array of an unsupported element type: objects, complex numbers, records.
+/// A valid npy array of unsupported elements: objects, complex numbers, records, whole numbers of 2^63 and
+/// more.
 class UnsupportedArray : public DataError {
   using DataError::DataError;
 };

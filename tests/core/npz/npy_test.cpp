@@ -106,6 +106,14 @@ TEST(Npy, ObjectRecordAndComplexArraysAreUnsupported) {
       UnsupportedArray);
 }
 
+TEST(Npy, WholeNumbersThatDoNotFitAreUnsupported) {
+  const std::string largest("\xff\xff\xff\xff\xff\xff\xff\x7f", 8), larger("\0\0\0\0\0\0\0\x80", 8);
+  EXPECT_EQ(parse(npy_bytes(dict("<u8", "(1,)"), largest)).type, Type::kInt64);
+  EXPECT_THROW(parse(npy_bytes(dict("<u8", "(2,)"), largest + larger)), UnsupportedArray)
+      << "an archive is read without it";
+  EXPECT_NE(message_of(npy_bytes(dict("<u8", "(1,)"), larger)).find("values under 2^63"), std::string::npos);
+}
+
 TEST(Npy, RejectsImpossibleShapesBeforeAllocating) {
   for (const char* shape : {"(1000000000000,)", "(4294967296, 4294967296)", "(99999999999999999999999,)",
                             "(1048576, 1048576, 1048576, 1048576)", "(2,)"})
