@@ -92,7 +92,7 @@ function stop_playing() {
   for (const [who, name] of Object.entries(names_of_people)) people[who].name = name;
   Object.assign(player.shown, play.shown);
   show_panel();
-  if (arrived.has(player.index)) show_loaded(player.index, ...arrived.get(player.index));
+  if (arrived.has(player.index)) show_loaded(...arrived.get(player.index));
 }
 
 // ---- while it goes on -----------------------------------------------------------------------------

@@ -1,23 +1,22 @@
 // One clip: loads its data from the page or from its file, and shows it.
 
 const arrived = new Map();  // data of clip files, by index
-const waiting = new Map();  // callbacks for clip files, by name
 
 // Called by the clip files beside the page.
-function mimicx_clip(name, clip, bodies) {
-  const take = waiting.get(name);
-  waiting.delete(name);
-  if (take) take(clip, bodies);
-}
+function mimicx_clip(name, clip, bodies) { arrived.set(data.rows.findIndex((row) => row.name === name), [clip, bodies]); }
 
-function load_clip(index, take) {
+// @param take  called with the clip and the bodies of its file @param fail  called with what is wrong with the file
+function load_clip(index, take, fail) {
   const row = data.rows[index];
   if (row.embedded) { take(JSON.parse($(`clip-${index}`).textContent)); return; }
   if (arrived.has(index)) { take(...arrived.get(index)); return; }
-  waiting.set(row.name, (...what) => { arrived.set(index, what); take(...what); });
   const path = `report/${row.name.split('/').map(encodeURIComponent).join('/')}.js`;
-  const missing = () => { $('clip-message').textContent = `${path} is not there: it belongs beside this page`; };
-  document.head.append(make('script', {src: path, onerror: missing}));
+  const came = () => {
+    if (arrived.has(index)) take(...arrived.get(index));
+    else fail(`${path} is broken: it does not have this clip`);
+  };
+  const missing = () => fail(`${path} is not there: it belongs beside this page`);
+  document.head.append(make('script', {src: path, onload: came, onerror: missing}));
 }
 
 function metrics_table(row) {
@@ -42,9 +41,21 @@ function facts_list(facts) {
           make('tr', {title: f.meaning}, make('th', {scope: 'row'}, f.words), make('td', {}, with_unit(short(f.value), f.unit)))))));
 }
 
-function show_loaded(index, clip, bodies) {
+// What is known of a clip before its data are there.
+function show_row(index) {
   const row = data.rows[index];
   player.index = index;
+  player.clip = null;
+  $('clip-name').textContent = row.name;
+  $('clip').value = index;
+  $('status').textContent = row.ok ? `✓ cleaned, by ${row.made_by}` : `✗ failed: ${row.reason}`;
+  $('status').className = row.ok ? 'ok' : 'failed';
+  $('stage').hidden = $('training').hidden = true;
+  for (const id of ['charts', 'training-charts', 'facts', 'notes']) $(id).replaceChildren();
+  $('metrics').replaceChildren(...metrics_table(row));
+}
+
+function show_loaded(clip, bodies) {
   take_clip(clip, bodies);
   $('clip-message').textContent = '';
   $('stage').hidden = !clip.motions.length;
@@ -53,21 +64,17 @@ function show_loaded(index, clip, bodies) {
   $('charts').replaceChildren(...clip.charts.map((c) => chart_of(c, (t) => go_to_frame(Math.round(t * clip.fps)))));
   $('training').hidden = !clip.training.length;
   $('training-charts').replaceChildren(...clip.training.map((c) => chart_of(c)));
-  $('metrics').replaceChildren(...metrics_table(row));
   $('facts').replaceChildren(...facts_list(clip.facts));
   $('notes').replaceChildren(...clip.notes.map((text) => make('li', {}, text)));
 }
 
 function show_clip(index, ready) {
-  const row = data.rows[index];
-  $('clip-name').textContent = row.name;
-  $('clip').value = index;
-  $('status').textContent = row.ok ? `✓ cleaned, by ${row.made_by}` : `✗ failed: ${row.reason}`;
-  $('status').className = row.ok ? 'ok' : 'failed';
+  show_row(index);
   $('clip-message').textContent = 'loading …';
+  const waits = () => player.index === index && !player.clip;  // no other clip was chosen meanwhile
   load_clip(index, (clip, bodies) => {
-    if (Number($('clip').value) !== index) return;  // another clip was chosen meanwhile
-    show_loaded(index, clip, bodies);
-    if (ready) ready();
-  });
+    if (!waits()) return;
+    show_loaded(clip, bodies);
+    ready();
+  }, (why) => { if (waits()) $('clip-message').textContent = why; });
 }

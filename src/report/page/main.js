@@ -35,24 +35,32 @@ function tick(now) {
 
 const go_to_clip = (index) => { location.hash = `#${Math.min(Math.max(index, 0), data.rows.length - 1)}`; };
 
-function on_key(e) {
-  const tag = e.target.tagName;
-  if (e.ctrlKey || e.metaKey || e.altKey || tag === 'SELECT' || (tag === 'INPUT' && e.target.type === 'search')) return;
-  if ($('clip-view').hidden || !player.clip) return;
-  const frame = frame_of(player.time), leap = e.shiftKey ? 10 : 1;
+// What the keys do with the clip that is shown.
+function player_keys(leap) {
+  const frame = frame_of(player.time);
   const keys = {
     ' ': () => set_playing(!player.playing),
     ArrowRight: () => go_to_frame(frame + leap),
     ArrowLeft: () => go_to_frame(frame - leap),
     Home: () => go_to_frame(0),
     End: () => go_to_frame(player.frames - 1),
-    n: () => go_to_clip(player.index + 1),
-    p: () => go_to_clip(player.index - 1),
     c: () => { if (player.clip.camera) look_from(as_camera_saw() ? 'around' : 'camera'); },
     o: () => { $('placing').value = player.placing === 'over' ? 'beside' : 'over'; $('placing').onchange(); },
-    Escape: () => { location.hash = ''; },
   };
   present().forEach((who, i) => { keys[i + 1] = () => { player.shown[who] = !player.shown[who]; show_layers(); player.stale = true; }; });
+  return keys;
+}
+
+function on_key(e) {
+  const tag = e.target.tagName;
+  if (e.ctrlKey || e.metaKey || e.altKey || tag === 'SELECT' || (tag === 'INPUT' && e.target.type === 'search')) return;
+  if ($('clip-view').hidden) return;
+  const keys = {
+    n: () => go_to_clip(player.index + 1),
+    p: () => go_to_clip(player.index - 1),
+    Escape: () => { location.hash = ''; },
+    ...(player.clip ? player_keys(e.shiftKey ? 10 : 1) : {}),
+  };
   if (!keys[e.key] || (e.key === ' ' && (tag === 'BUTTON' || tag === 'SUMMARY' || tag === 'INPUT'))) return;
   keys[e.key]();
   e.preventDefault();
