@@ -1,6 +1,7 @@
 #include "report/charts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/base64_digits.h"
 #include "rl/tracking/reward.h"
@@ -74,6 +75,9 @@ ReportChart torque_chart(const ChartSources& sources) {
   return chart;
 }
 
+/// A mean over the interval that ends at the frame; frame 0 ends none.
+double or_gap(std::size_t frame, double force) { return frame == 0 ? kNoValue : force; }
+
 ReportChart ground_chart(const ChartSources& sources) {
   const bool ranges = sources.sharing && !sources.sharing->empty();
   ReportChart chart{
@@ -86,13 +90,14 @@ ReportChart ground_chart(const ChartSources& sources) {
   constexpr Array<const char*, files::kCarriers> kNames = {"left foot", "right foot", "rest of the body"};
   for (int k = 0; k < files::kCarriers; ++k) {
     ReportLine line{Who::kNobody, kNames[k], {}};
-    for (const files::FloorArrows& frame : *sources.ground)
-      line.values.push_back(frame[k].force.z() / sources.weight);
+    for (std::size_t t = 0; t < sources.ground->size(); ++t)
+      line.values.push_back(or_gap(t, (*sources.ground)[t][k].force.z() / sources.weight));
     for (std::size_t t = 0; k < 2 && ranges && t < sources.sharing->size(); ++t) {
-      line.least.push_back((*sources.sharing)[t].least[k].z() / sources.weight);
-      line.most.push_back((*sources.sharing)[t].most[k].z() / sources.weight);
+      line.least.push_back(or_gap(t, (*sources.sharing)[t].least[k].z() / sources.weight));
+      line.most.push_back(or_gap(t, (*sources.sharing)[t].most[k].z() / sources.weight));
     }
-    const bool any = std::any_of(line.values.begin(), line.values.end(), [](double f) { return f != 0.0; });
+    const bool any =
+        std::any_of(line.values.begin(), line.values.end(), [](double f) { return std::abs(f) > 0.0; });
     if (k < 2 || any) chart.lines.push_back(line);
   }
   return chart;
