@@ -23,13 +23,18 @@ function orbit_camera(centre, view, part) {
                      {fx: focal, fy: focal, skew: 0, cx: part.x + part.width / 2, cy: part.y + part.height * 0.52});
 }
 
-// The camera of a clip at a frame. @param shown  {u, v, zoom}: centre of the view, px of the picture; magnification
+// The camera of a clip at a frame. Its pixel(u, v) is where a place of its picture is on the canvas; size is that of the
+// picture, an estimate: its middle is the principal point.
+// @param shown  {u, v, zoom}: centre of the view, px of the picture; magnification
 function clip_camera(camera, frame, shown, part) {
   const e = camera.extrinsics[camera.extrinsics.length > 1 ? Math.min(frame, camera.extrinsics.length - 1) : 0];
-  const at = (middle, from, c) => middle + shown.zoom * (c - from);
-  return make_camera([e.slice(0, 3), e.slice(4, 7), e.slice(8, 11)], [e[3], e[7], e[11]],
-                     {fx: shown.zoom * camera.fx, fy: shown.zoom * camera.fy, skew: shown.zoom * camera.skew,
-                      cx: at(part.x + part.width / 2, shown.u, camera.cx), cy: at(part.y + part.height / 2, shown.v, camera.cy)});
+  const pixel = (u, v) => ({x: part.x + part.width / 2 + shown.zoom * (u - shown.u),
+                            y: part.y + part.height / 2 + shown.zoom * (v - shown.v)});
+  const middle = pixel(camera.cx, camera.cy);
+  const lens = {fx: shown.zoom * camera.fx, fy: shown.zoom * camera.fy, skew: shown.zoom * camera.skew,
+                cx: middle.x, cy: middle.y};
+  return {...make_camera([e.slice(0, 3), e.slice(4, 7), e.slice(8, 11)], [e[3], e[7], e[11]], lens), pixel,
+          size: {width: 2 * camera.cx, height: 2 * camera.cy}};
 }
 
 // The projection matrix for WebGL's clip space, column by column.

@@ -29,23 +29,22 @@ function picture_shown(part) {
   return {u: (left + right) / 2 - view.pan[0], v: (top + bottom) / 2 - 0.06 * high - view.pan[1], zoom: fits * view.zoom};
 }
 
-// The detector's points of a frame on the canvas.
-function seen_at(frame, camera) {
-  const {lens} = camera, {fx, fy, cx, cy} = player.clip.camera, count = player.clip.camera.points.length;
+// The detector's points of a frame on the canvas, in the picture of a clip's camera.
+function seen_at(frame, {pixel}) {
+  const count = player.clip.camera.points.length;
   const first = 3 * count * Math.min(frame, player.seen.length / (3 * count) - 1);
   return player.clip.camera.points.map((_, k) => {
     const [u, v, confidence] = player.seen.subarray(first + 3 * k, first + 3 * k + 3);
-    return {x: lens.cx + lens.fx / fx * (u - cx), y: lens.cy + lens.fy / fy * (v - cy), confidence};
+    return {...pixel(u, v), confidence};
   });
 }
 
-// The edge of the picture, an estimate: its middle is the principal point.
-function draw_edge(g, camera) {
-  const {fx, fy, cx, cy} = player.clip.camera, {lens} = camera;
+function draw_edge(g, {pixel, size}) {
+  const from = pixel(0, 0), to = pixel(size.width, size.height);
   g.strokeStyle = tones.ink;
   g.globalAlpha = 0.35;
   g.lineWidth = 1;
-  g.strokeRect(lens.cx - lens.fx / fx * cx, lens.cy - lens.fy / fy * cy, 2 * cx * lens.fx / fx, 2 * cy * lens.fy / fy);
+  g.strokeRect(from.x, from.y, to.x - from.x, to.y - from.y);
   g.globalAlpha = 1;
 }
 
