@@ -310,7 +310,7 @@ std::vector<ReportMetric> report_metrics(bool truth) {
       "for the cleaned motion, beyond its recorded forces";
   metrics.push_back({kRootForce, force, kPhysics});
   for (const char* name :
-       {"slip", "slip_share", "FS_gt", "Float", "GP", "Jitter", "chatter", "FS", "SelfPen", "GP_max", "FS_0"})
+       {"slip", "slip_share", "Float", "GP", "Jitter", "chatter", "FS", "SelfPen", "GP_max", "FS_0"})
     metrics.push_back({name, words_of_metric(name), kPhysics});
   const auto have = [&metrics](const std::string& key) {
     return std::any_of(metrics.begin(), metrics.end(), [&](const auto& m) { return m.key == key; });

@@ -221,6 +221,15 @@ TEST(RunReport, TableHasTheManifestsNumbers) {
     EXPECT_FALSE(values(page, d.name).is_null()) << d.name << " has no column";
 }
 
+TEST(RunReport, MetricsThatNeedTheReferenceAreInItsGroup) {
+  std::map<std::string, std::string> groups;
+  for (const ReportMetric& metric : report_metrics(false)) groups[metric.key] = metric.group;
+  for (const char* name : {"MPJPE", "Accel", "FS_gt", "Float_gt", "max_distance_mm"})
+    EXPECT_EQ(groups.at(name), "against the prepared reference") << name;
+  for (const char* name : {"root_force_mean_N", "slip", "FS", "Float", "GP", "Jitter"})
+    EXPECT_EQ(groups.at(name), "without reference") << name;
+}
+
 TEST(RunReport, MetricsAgainstTheTruthAreThoseOfEvaluate) {
   Folder run(1);
   const std::filesystem::path truth = run.folder.path / "truth";
