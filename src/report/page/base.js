@@ -16,14 +16,15 @@ function make(tag, properties = {}, ...children) {
 
 const with_minus = (text) => text.replace('-', '−');
 
-// A number with at most three significant digits; a dash for a missing one.
+// A number with at most three significant digits, 1 only from 1 on; a dash for a missing one.
 function short(value) {
   if (value === null || value === undefined) return '–';
   const size = Math.abs(value);
   if (size >= 1e6) return tick_text(Number(value.toPrecision(3)));
   if (size >= 100) return with_minus(String(Math.round(value)));
   if (size > 0 && size < 1e-3) return value < 0 ? '> −0.001' : '< 0.001';
-  return with_minus(String(Number(value.toPrecision(size < 1 ? 2 : 3))));
+  if (size >= 0.9995 && size < 1) return value < 0 ? '< −0.999' : '> 0.999';
+  return with_minus(String(Number(value.toPrecision(size < 0.995 ? 2 : 3))));  // two digits of 0.996 would be a 1
 }
 
 // A tick label of an axis: the number is round already.
