@@ -171,14 +171,15 @@ void declare_render(CommandLine& line) {
   Option frames =
       command.number("--frames", a->frames, {1.0, 200.0}, "number of moments of a strip or a stroboscope");
   frames.defaults_to(std::to_string(a->picture.moments));
-  command
-      .numbers("--at", a->at, kFromZero,
-               "the moments to show, s, separated by commas; default: evenly spread, of a still the one "
-               "whose pose "
-               "is farthest from the mean one")
-      .excludes(frames);
-  command.number("--from", a->picture.stretch.first, kFromZero, "show the motion from this time on, s");
-  command.number("--to", a->picture.stretch.last, kFromZero, "up to this time, s").defaults_to("its end");
+  Option at = command.numbers("--at", a->at, kFromZero,
+                              "the moments to show, s, separated by commas; default: evenly spread, of a "
+                              "still the one whose pose is farthest from the mean one");
+  at.excludes(frames);
+  command.number("--from", a->picture.stretch.first, kFromZero, "show the motion from this time on, s")
+      .excludes(at);
+  command.number("--to", a->picture.stretch.last, kFromZero, "up to this time, s")
+      .defaults_to("its end")
+      .excludes(at);
   command.text(
       "--view", [a](const std::string& text) { take_view(text, a->picture.view); },
       "front|quarter|side|DEGREES",

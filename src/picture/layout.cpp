@@ -52,7 +52,11 @@ TimeSpan common_stretch(const List<PosedMotion>& motions, const PictureConfig& c
 
 List<double> moments_of(const List<PosedMotion>& motions, const PictureConfig& config) {
   const TimeSpan stretch = common_stretch(motions, config);
-  if (!config.at.empty()) return config.at;
+  if (!config.at.empty()) {
+    List<double> moments = config.at;
+    std::sort(moments.begin(), moments.end());
+    return moments;
+  }
   if (config.kind == Kind::kStill) return {telling_moment(motions[0], stretch)};
   if (config.kind != Kind::kAnimation) return even_moments(stretch, config.moments);
   List<double> moments;

@@ -54,7 +54,7 @@ struct Page {
 
 struct Layout {
   Size size;
-  List<double> moments;  ///< all that are shown, s
+  List<double> moments;  ///< all that are shown, s, in the order of time
   List<Page> pages;      ///< one; for an animation one per moment
 };
 

@@ -79,6 +79,18 @@ TEST(Layout, EveryKindShowsWholeBodiesAtAnySize) {
     }
 }
 
+TEST(Layout, MomentsAreShownInTheOrderOfTime) {
+  const List<PosedMotion> one = {gliding(61, 0.0)};
+  for (const Kind kind : {Kind::kStrip, Kind::kStroboscope}) {
+    PictureConfig config = of_kind(kind);
+    config.at = {1.5, 0.5, 1.0};
+    const Layout layout = lay_out(one, config);
+    EXPECT_EQ(layout.moments, (List<double>{0.5, 1.0, 1.5}));
+    EXPECT_EQ(layout.pages[0].time, 0.5);
+    EXPECT_EQ(layout.pages[0].cells.back().moments.back(), 1.5);
+  }
+}
+
 TEST(Layout, AnAnimationHasAPagePerFrameAndACameraThatStandsStill) {
   const List<PosedMotion> one = {gliding(31, 0.0)};
   PictureConfig config = of_kind(Kind::kAnimation);

@@ -49,6 +49,8 @@ TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
       {a + " --size 300" + png, 2, "--size: expected"},
       {a + " --at 5" + png, 2, "render: 5.00 s is not in the motion, which ends at 0.63 s"},
       {a + " --at 0.1,0.2 --kind still" + png, 2, "--at: a still shows one moment, found 2"},
+      {a + " --at 0.1 --from 0.2" + png, 2, "--at excludes --from"},
+      {a + " --to 0.2 --at 0.5" + png, 2, "--at excludes --to"},
       {a + " --kind animation --at 0.1" + png, 2, "--at: an animation shows all moments"},
       {a + " --kind still --frames 3" + png, 2, "--frames: a still shows one moment"},
       {a + " --kind animation --frames 3" + png, 2, "--frames: an animation shows all moments"},
