@@ -15,6 +15,7 @@
 #include "record/json.h"
 #include "record/outputs.h"
 #include "record/utf8_names.h"
+#include "render/text.h"
 #include "run/preparation.h"
 #include "shared_arguments.h"
 #include "standard_streams.h"
@@ -100,6 +101,16 @@ List<picture::PosedMotion> motions_of(const RenderArguments& a) {
   return motions;
 }
 
+/// Labels whose letters the font lacks, in one line.
+void tell_missing_letters(const List<picture::PosedMotion>& motions) {
+  std::string labels;
+  for (const picture::PosedMotion& p : motions)
+    if (render::in_font(p.label) != p.label) labels += (labels.empty() ? "" : ", ") + p.label;
+  if (!labels.empty())
+    std::cerr << "render: the font lacks letters of " << labels
+              << ", drawn as ?; --labels gives other names\n";
+}
+
 /// @throws UsageError for options that this kind of picture does not use
 picture::PictureConfig config_of(const RenderArguments& a) {
   picture::PictureConfig config = a.picture;
@@ -136,6 +147,7 @@ int render(const RenderArguments& a) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("render: ") + error.what());
   }
+  tell_missing_letters(motions);
   make_folder(a.out.parent_path());
   picture::write_picture(a.out, motions, layout, config.rate, a.threads);
   std::fprintf(table_file(a.json), "%s: %d x %d pixels, %d moments from %.2f to %.2f s\n",

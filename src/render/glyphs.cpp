@@ -109,8 +109,10 @@ constexpr std::array<std::string_view, kLast - kFirst + 1> kGlyphs = {
 
 }  // namespace
 
+bool has_glyph(char c) { return c >= kFirst && c <= kLast; }
+
 std::string_view glyph(char c) {
-  if (c < kFirst || c > kLast) c = '?';
+  if (!has_glyph(c)) c = '?';
   return kGlyphs[static_cast<std::size_t>(c - kFirst)];
 }
 

@@ -11,6 +11,8 @@ namespace mimicx::render {
 
 inline constexpr int kCapitalHeight = 6;
 
+bool has_glyph(char c);
+
 /// Strokes of a character; those of '?' for a character that the font lacks.
 std::string_view glyph(char c);
 

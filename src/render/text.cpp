@@ -46,9 +46,21 @@ class Ink {
 
 }  // namespace
 
+std::string in_font(const std::string& text) {
+  std::string shown;
+  bool inside = false;  // a letter of several bytes
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continues = inside && (byte & 0xC0U) == 0x80U;
+    if (!continues) shown += has_glyph(c) ? c : '?';
+    inside = byte >= 0x80U;
+  }
+  return shown;
+}
+
 double text_width(const std::string& text, double height) {
   int width = 0;
-  for (const char c : text) width += advance(c);
+  for (const char c : in_font(text)) width += advance(c);
   return height * width / kCapitalHeight;
 }
 
@@ -56,7 +68,7 @@ void draw_text(const std::string& text, const TextPlace& place, const Colour& in
   const double unit = place.height / kCapitalHeight, y = place.y;
   double x = place.x;
   Ink strokes(0.5 * kPen * place.height, image);
-  for (const char c : text) {
+  for (const char c : in_font(text)) {
     const std::string_view all = glyph(c);
     const auto point = [&](std::size_t at) {
       return Eigen::Vector2d(x + unit * (all[at] - '0'), y + unit * (all[at + 1] - '0' - kCapitalHeight));
@@ -77,9 +89,10 @@ void draw_text(const std::string& text, const TextPlace& place, const Colour& in
 
 void draw_text_within(const std::string& text, const TextPlace& place, double width, const Colour& ink,
                       Image& image) {
-  std::string shown = text;
-  for (std::size_t cut = 1; text_width(shown, place.height) > width && cut <= text.size(); ++cut)
-    shown = "..." + text.substr(cut);
+  const std::string whole = in_font(text);
+  std::string shown = whole;
+  for (std::size_t cut = 1; text_width(shown, place.height) > width && cut <= whole.size(); ++cut)
+    shown = "..." + whole.substr(cut);
   draw_text(shown, place, ink, image);
 }
 

@@ -7,6 +7,9 @@
 
 namespace mimicx::render {
 
+/// A text as it is drawn: with a '?' for every letter that the font lacks. @param text  UTF-8
+std::string in_font(const std::string& text);
+
 /// Width of a line of text, pixels. @param height  of capital letters, pixels
 double text_width(const std::string& text, double height);
 

@@ -36,6 +36,16 @@ TEST_F(CliRender, DrawsEveryKindFromEveryFormat) {
   EXPECT_TRUE(says(call, "4 moments from 0.00 to 0.60 s")) << call.text;
 }
 
+TEST_F(CliRender, TellsWhichLabelsHaveLettersThatTheFontLacks) {
+  const std::string two = path("a.npz") + " " + path("b.bvh") + " --frames 1 --out " + path("x.png");
+  const Call lacking = render(two + " --labels 歩く,walk");
+  EXPECT_EQ(lacking.status, 0) << lacking.text;
+  EXPECT_TRUE(
+      says(lacking, "render: the font lacks letters of 歩く, drawn as ?; --labels gives other names\n"))
+      << lacking.text;
+  EXPECT_FALSE(says(render(two + " --labels walks,walk"), "the font lacks"));
+}
+
 TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
   const std::string a = path("a.npz"), png = " --out " + path("x.png");
   const std::vector<std::tuple<std::string, int, std::string>> calls = {

@@ -38,6 +38,17 @@ TEST(Text, EveryPrintableCharacterHasItsOwnValidGlyph) {
   EXPECT_EQ(glyph('\xc3'), glyph('?'));
 }
 
+TEST(Text, EachLetterThatTheFontLacksIsOneQuestionMark) {
+  EXPECT_EQ(in_font("walk_1.npz"), "walk_1.npz");
+  EXPECT_EQ(in_font("Größe 歩く\t"), "Gr??e ???");
+  EXPECT_EQ(in_font("a\xb0\xe9"), "a??") << "bytes that are no UTF-8";
+  EXPECT_EQ(text_width("é歩", 24), text_width("??", 24));
+  Image marks(200, 40, kPaper), letters(200, 40, kPaper);
+  draw_text_within("a/very/long/???", {5, 30, 12}, 90, Colour::Zero(), marks);
+  draw_text_within("a/very/long/é歩é", {5, 30, 12}, 90, Colour::Zero(), letters);
+  EXPECT_TRUE(letters.pixels == marks.pixels);
+}
+
 TEST(Text, HasTheGivenBaselineHeightAndWidth) {
   Image image(300, 60, kPaper);
   draw_text("HEL", {20, 40, 24}, Colour::Zero(), image);
