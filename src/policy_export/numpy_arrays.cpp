@@ -1,5 +1,7 @@
 #include "policy_export/numpy_arrays.h"
 
+#include <algorithm>
+
 #include "files/archive_members.h"
 #include "files/simulation_settings.h"
 
@@ -40,7 +42,8 @@ void add_body(const Character& character, double max_action, Npz& npz) {
   npz.set("max_action", NpyArray::scalar(max_action));
 }
 
-void add_records(const std::vector<Record>& records, Npz& npz) {
+/// Actions are within ± max_action, as those of the documentation's code.
+void add_records(const std::vector<Record>& records, float max_action, Npz& npz) {
   std::vector<std::int32_t> frames;
   List<physics::State<double>> states;
   std::vector<float> observations, actions, targets;
@@ -48,7 +51,7 @@ void add_records(const std::vector<Record>& records, Npz& npz) {
     frames.push_back(record.frame);
     states.push_back(to_physics(record.now));
     observations.insert(observations.end(), record.observation.begin(), record.observation.end());
-    actions.insert(actions.end(), record.action.begin(), record.action.end());
+    for (const float angle : record.action) actions.push_back(std::clamp(angle, -max_action, max_action));
     for (const auto& q : record.targets.q) targets.insert(targets.end(), q, q + 4);
   }
   npz.set("test_frames", NpyArray::from_int32({frames.size()}, frames.data()));
@@ -77,7 +80,7 @@ Npz to_arrays(const ExportedPolicy& exported) {
   add_body(exported.meant.motion.character, static_cast<double>(exported.max_action), npz);
   for (const auto& [name, number] : files::simulation_numbers(exported.meant.simulation))
     npz.set(name, NpyArray::scalar(number));
-  add_records(exported.records, npz);
+  add_records(exported.records, exported.max_action, npz);
   return npz;
 }
 

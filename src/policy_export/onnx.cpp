@@ -110,8 +110,6 @@ std::string weights(const ExportedPolicy& exported, std::size_t layer, Graph& gr
 Graph network(const ExportedPolicy& exported) {
   const rl::Agent& agent = exported.meant.agent;
   const std::size_t inputs = kStateCount;
-  // A bound of π, which every rotation keeps, is left to the user of the model.
-  const bool bounded = exported.max_action != static_cast<float>(rl::tracking::ActionSettings{}.max_action);
   Graph graph;
   graph.constant("mean", {inputs}, values_of(agent.observations.shift));
   graph.constant("factor", {inputs}, values_of(agent.observations.factor));
@@ -131,16 +129,13 @@ Graph network(const ExportedPolicy& exported) {
     const std::string number = std::to_string(l);
     const auto outputs = static_cast<std::size_t>(agent.actor.weights[l].cols());
     const std::string bias = graph.constant("bias" + number, {outputs}, values_of(agent.actor.biases[l]));
-    const bool is_action = last && !bounded;
     x = graph.apply("MatMul", {x, weights(exported, l, graph)}, "product" + number);
-    x = graph.apply("Add", {x, bias}, is_action ? "action" : "sum" + number);
+    x = graph.apply("Add", {x, bias}, "sum" + number);
     if (!last) x = graph.apply("Elu", {x}, "units" + number);
   }
-  if (bounded) {
-    graph.constant<float>("least_action", {}, {-exported.max_action});
-    graph.constant<float>("most_action", {}, {exported.max_action});
-    graph.apply("Clip", {x, "least_action", "most_action"}, "action");
-  }
+  graph.constant<float>("least_action", {}, {-exported.max_action});
+  graph.constant<float>("most_action", {}, {exported.max_action});
+  graph.apply("Clip", {x, "least_action", "most_action"}, "action");
   return graph;
 }
 

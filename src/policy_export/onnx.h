@@ -1,4 +1,4 @@
-/// A policy's network as an ONNX model: observation [N, 570] → action [N, 55], opset 13.
+/// A policy's network as an ONNX model: observation [N, 570] → action [N, 55] within ± max_action, opset 13.
 ///
 /// The file is a protocol buffer (https://protobuf.dev/programming-guides/encoding) with the messages of
 /// onnx.proto3, which are encoded here without a library. 8-bit weights are stored as int8, each matrix

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/file.h"
 #include "core/shell.h"
 #include "core/temporary_folder.h"
@@ -26,9 +29,18 @@ std::string example() {
   return code;
 }
 
+/// Actions are small: some are beyond this bound, rad.
+constexpr float kSmallBound = 0.005F;
+ExportedPolicy bounded_policy() {
+  files::StoredPolicy policy = small_policy();
+  policy.actions.max_action = static_cast<double>(kSmallBound);
+  return export_policy(policy, false);
+}
+
 TEST(PolicyArrays, RunAsTheDocumentationSays) {
   if (shell(std::string(kPython) + " -c 'import numpy' 2>&1").status != 0) GTEST_SKIP() << "no NumPy";
-  for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits()}) {
+  const ExportedPolicy bounded = bounded_policy();
+  for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits(), &bounded}) {
     const TemporaryFolder folder;
     write_npz(folder.path / "walk.npz", to_arrays(*exported));
     write_file_atomically(folder.path / "example.py", example());
@@ -37,6 +49,18 @@ TEST(PolicyArrays, RunAsTheDocumentationSays) {
     EXPECT_LT(std::stod(call.text), 1e-5) << call.text;
     EXPECT_GT(std::stod(call.text), 0.0) << "it should have computed something: " << call.text;
   }
+}
+
+TEST(PolicyArrays, RecordedActionsKeepTheBoundOfThePolicy) {
+  const ExportedPolicy bounded = bounded_policy();
+  const std::vector<double> actions = to_arrays(bounded).at("test_actions").to_double();
+  double largest = 0.0;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const float computed = bounded.records[k / kActionCount].action[k % kActionCount];
+    EXPECT_EQ(actions[k], static_cast<double>(std::clamp(computed, -kSmallBound, kSmallBound)));
+    largest = std::max(largest, std::abs(actions[k]));
+  }
+  EXPECT_EQ(largest, static_cast<double>(kSmallBound));
 }
 
 TEST(PolicyArrays, HoldTheMotionTheBodyAndTheRecords) {

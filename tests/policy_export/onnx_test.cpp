@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 
 #include "policy_export/small_policy.h"
 
@@ -146,6 +147,21 @@ TEST(PolicyOnnx, ClipsToTheBoundOfActionsOfThePolicy) {
     largest = std::max(largest, std::abs(unbounded));
   }
   EXPECT_GT(largest, 0.005);
+}
+
+TEST(PolicyOnnx, ClipsToTheBoundOfEveryRotationToo) {
+  for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits()}) {
+    const std::string graph = of_number(to_onnx(*exported), 7).front().bytes;
+    const std::string last = of_number(graph, 1).back().bytes;
+    EXPECT_EQ(of_number(last, 4).front().bytes, "Clip");
+    EXPECT_EQ(of_number(last, 2).front().bytes, "action");
+    std::map<std::string, double> constants;
+    for (const Field& constant : of_number(graph, 5))
+      constants[of_number(constant.bytes, 8).front().bytes] = tensor_of(constant.bytes).values.front();
+    const double bound = static_cast<double>(std::numbers::pi_v<float>);
+    EXPECT_EQ(constants.at(of_number(last, 1).at(1).bytes), -bound);
+    EXPECT_EQ(constants.at(of_number(last, 1).at(2).bytes), bound);
+  }
 }
 
 TEST(PolicyOnnx, StaysUnderItsSizeLimits) {
