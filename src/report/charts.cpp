@@ -192,16 +192,16 @@ std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotio
   std::vector<ReportBars> bars;
   if (input) {
     const Flaws flaws = flaws_of(*input, cleaned);
-    bars.push_back(
-        {"input sinks", "the input's lowest point is deeper than 5 mm", true, spans_of(flaws.sinks)});
+    bars.push_back({"input sinks", "the input's lowest point is deeper than 5 mm", true,
+                    spans_of(flaws.sinks), Who::kInput});
     bars.push_back({"input floats",
                     "the input's lowest point is higher than 5 mm where the cleaned motion stands", true,
-                    spans_of(flaws.floats)});
+                    spans_of(flaws.floats), Who::kInput});
     bars.push_back({"input slides", "feet of the input that carry the body slip by more than 3 mm in a frame",
-                    true, spans_of(flaws.slides)});
+                    true, spans_of(flaws.slides), Who::kInput});
     bars.push_back({"input shakes",
                     "the input's joints accelerate 2 m/s² or more beyond those of the cleaned motion", true,
-                    spans_of(flaws.shakes)});
+                    spans_of(flaws.shakes), Who::kInput});
   }
   for (const std::size_t foot : {std::size_t{0}, std::size_t{1}}) {
     std::vector<bool> stands;

@@ -78,7 +78,11 @@ record::Json to_json(const ReportChart& chart) {
 record::Json to_json(const ReportBars& bars) {
   record::Json spans = record::Json::array();
   for (const Span& span : bars.spans) spans.push_back(std::array<int, 2>{span.first, span.last});
-  return {{"name", bars.name}, {"meaning", bars.meaning}, {"flaw", bars.flaw}, {"spans", spans}};
+  return {{"name", bars.name},
+          {"meaning", bars.meaning},
+          {"flaw", bars.flaw},
+          {"spans", spans},
+          {"who", name_of(bars.who)}};
 }
 
 record::Json to_json(const ReportRow& row) {

@@ -58,6 +58,7 @@ struct ReportBars {
   std::string name, meaning;
   bool flaw = false;  ///< of the input, or of a result that is worse; else a contact
   std::vector<Span> spans;
+  Who who = Who::kCleaned;  ///< whose flaw or contact
 };
 
 /// The external wrench that the reference would need, a value per frame.

@@ -164,7 +164,9 @@ TEST(Bars, ContactFollowsFootHeightWithoutForces) {
   EXPECT_EQ(row(bars, "left foot").spans.size(), 1u);
   EXPECT_TRUE(row(bars, "right foot").spans.empty());
   EXPECT_TRUE(row(bars, "input floats").flaw);
+  EXPECT_EQ(row(bars, "input floats").who, Who::kInput);
   EXPECT_FALSE(row(bars, "left foot").flaw);
+  EXPECT_EQ(row(bars, "left foot").who, Who::kCleaned);
 }
 
 }  // namespace

@@ -271,6 +271,10 @@ TEST(RunReport, ShowsWhereAClipIsWorseThanItsInputAndWhatWasFollowedInPart) {
   EXPECT_EQ(more.at("spans").dump(), "[[1,2],[5,5]]");
   EXPECT_EQ(more.at("meaning").get<std::string>(),
             "worse than the input, 0.4 -> 0.9 mm a frame: its reference slides, too");
+  EXPECT_TRUE(more.at("flaw").get<bool>());
+  EXPECT_EQ(more.at("who").get<std::string>(), "cleaned");
+  EXPECT_EQ(row("clip-0", "input floats").at("who").get<std::string>(), "input");
+  EXPECT_EQ(row("clip-3", "followed in part").at("who").get<std::string>(), "cleaned");
   EXPECT_EQ(row("clip-3", "followed in part").at("spans").dump(), "[[0,2],[4,5]]");
   EXPECT_NE(page.find("sliding 0.4 -> 0.9 mm a frame, most at frames 1-2, 5: its reference"),
             std::string::npos);

@@ -37,7 +37,8 @@ function tick_text(value) {
 const with_unit = (text, unit) => unit ? `${text} ${unit}` : text;
 
 // Whose motion it is: the name and the look of its lines. Colours stand in the style sheet (--input …); they are
-// those of Okabe and Ito, which colour-blind people tell apart, and every line has its own dashes, too.
+// those of Okabe and Ito, which colour-blind people tell apart, and every line has its own dashes, too. What is of no
+// motion has colours of its own (--line-0 …).
 const people = {
   input: {name: 'input', dash: '5 3'},
   reference: {name: 'prepared reference', dash: '1.5 2.5'},

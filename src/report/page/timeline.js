@@ -1,13 +1,14 @@
-// The rows under the player: the slider, flaws of the input, contacts of the feet, and external forces that the
-// reference would need.
+// The rows under the player: the slider, flaws and contacts of the feet in the colour of their motion, and external
+// forces that the reference would need.
 
 // The faults of the reference's frames, a colour each; the height of a bar is the amount.
 const kinds = [
-  {words: ['hovers', 'pulled'], colour: '--input', name: 'up or down'},
-  {words: ['drifts', 'slips'], colour: '--cleaned', name: 'sideways'},
-  {words: ['turns', 'tips'], colour: '--line-4', name: 'a turn'},
+  {words: ['hovers', 'pulled'], colour: '--line-0', name: 'up or down'},
+  {words: ['drifts', 'slips'], colour: '--line-1', name: 'sideways'},
+  {words: ['turns', 'tips'], colour: '--line-2', name: 'a turn'},
   {words: ['sunk'], colour: '--ink', name: 'in the floor'},
 ];
+const help_colour = '--line-3';
 const band = {row: 18, pointed: -1};
 
 const share_of = (frame) => player.frames > 1 ? frame / (player.frames - 1) : 0;
@@ -16,6 +17,7 @@ function bar_row(bars) {
   const track = make('div', {className: 'track'});
   for (const [first, last] of bars.spans) {
     const bar = make('i', {className: bars.flaw ? 'flaw' : 'contact'});
+    bar.style.setProperty('--own', `var(--${bars.who})`);
     bar.style.left = `${100 * share_of(first - 0.5)}%`;
     bar.style.width = `${100 * share_of(last - first + 1)}%`;
     track.append(bar);
@@ -57,7 +59,7 @@ function show_timeline() {
   $('band').style.height = `${band.row * (clip.help ? 2 : 1)}px`;
   const kind_shown = kinds.filter((k) => k.words.some((w) => clip.needs.wrong.includes(w)));
   const keys = [{colour: '--feasible', name: 'feasible'}, ...kind_shown];
-  if (clip.help) keys.push({colour: '--truth', name: 'assistive force in the plan\'s assisted stage (lower row)'});
+  if (clip.help) keys.push({colour: help_colour, name: 'assistive force in the plan\'s assisted stage (lower row)'});
   $('need-key').replaceChildren('a full bar is half the weight or more:', ...keys.flatMap((k) => {
     const swatch = make('i');
     swatch.style.background = `var(${k.colour})`;
@@ -91,7 +93,7 @@ function draw_band() {
     g.fillRect(share_of(t) * width - wide / 2, foot - high, wide, high);
   });
   bars(clip.needs, band.row, (t) => (kind_of(clip.needs.wrong[t]) || {colour: '--feasible'}).colour);
-  if (clip.help) bars(clip.help, 2 * band.row, () => '--truth');
+  if (clip.help) bars(clip.help, 2 * band.row, () => help_colour);
 }
 
 // Updates everything that depends on the present frame.
