@@ -10,9 +10,15 @@ function mimicx_told(line, urgent) { postMessage({told: line, urgent}); }
 const answer_bytes = () => program.HEAPU8.slice(program._mimicx_answer(), program._mimicx_answer() + program._mimicx_answer_size());
 const answer = () => JSON.parse(new TextDecoder().decode(answer_bytes()));
 
+// What the program made room for; it returns 0 where there is no memory.
+function there(pointer) {
+  if (!pointer) throw new Error('there is not enough memory');
+  return pointer;
+}
+
 // Copies a text or doubles into the program's memory and calls f(pointer).
 function with_memory(bytes, f) {
-  const at = program._malloc(bytes.length);
+  const at = there(program._malloc(Math.max(bytes.length, 1)));
   program.HEAPU8.set(bytes, at);
   try { return f(at); } finally { program._free(at); }
 }
@@ -72,7 +78,7 @@ function setting_text(value) {
 
 // Reads a motion from its file and calls f(motion, check), where check throws the motion's error.
 function with_motion({name, bytes, options}, f) {
-  const motion = program._mimicx_motion_new();
+  const motion = there(program._mimicx_motion_new());
   const check = (good) => { if (!good) throw new Error(text_at(program._mimicx_motion_error(motion))); };
   try {
     for (const [key, value] of Object.entries(options).filter(([, value]) => value !== undefined)) {
