@@ -42,7 +42,7 @@ typedef enum {
 /* Numbers that belong to a handle, in C order, or that are given to it. */
 typedef struct {
   void* data;
-  char type[8];       /* as NumPy names it: "<f8", "<f4", "<i8", "<i4", "|u1" */
+  char type[8];       /* as NumPy names it: "<f8", "<f4", "<i8", "<i4", "|u1", "|b1" */
   int32_t dimensions; /* 0 to 4 */
   int64_t shape[4];
 } mimicx_array;
