@@ -205,7 +205,8 @@ double largest_turn(const Member& member, std::initializer_list<std::size_t> wid
   for (std::size_t t = 0; t < clip.rotations.size(); ++t)
     for (std::size_t j = 0; j < bodies; ++j) {
       const Vector3d turn = Eigen::Map<const Vector3d>(member.values.data() + columns * t + 3 * j);
-      largest = std::max(largest, exp_map(turn).angularDistance(exp_map(clip.rotations[t][first + j])));
+      const Quaterniond used = exp_map(clip.rotations[t][first + j]);
+      largest = std::max(largest, log_map(exp_map(turn).conjugate() * used).norm());
     }
   return largest;
 }

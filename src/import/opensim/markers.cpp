@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/number_text.h"
 #include "core/quantile.h"
 #include "import/retarget/skeleton.h"
@@ -115,7 +116,7 @@ class Counter {
   void expect_equal_steps(const Lines& lines) const {
     const double step = usual_step();
     if (step == 0.0) return;
-    const double rounding = decimals_ == 0 ? 0.0 : 1.01 * std::pow(10.0, -static_cast<double>(decimals_));
+    const double rounding = decimals_ == 0 ? 0.0 : 1.01 * pow(10.0, -static_cast<int>(decimals_));
     for (std::size_t k = 1; k < values_.size(); ++k)
       if (std::abs(values_[k] - values_[k - 1] - step) > std::max(0.5 * step, rounding))
         lines.fail_at(
