@@ -416,8 +416,9 @@ void write_archive(const std::filesystem::path& path, const motion::Clip& clip) 
 /// A simulated motion keeps its frame rate, axes, unit and floor, to which its forces belong: the settings
 /// are for the files beside it, such as the truth that it is compared with.
 ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
-  const bool simulated = std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
-                                     [](const auto& member) { return member.first == kFloorForces; });
+  const bool ours = clip.body_model == "mimicx" || clip.rest_joints.has_value();
+  const bool simulated = ours && std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
+                                             [](const auto& member) { return member.first == kFloorForces; });
   if (simulated && config.forces_keep_body) {
     config.mass.reset();
     config.height.reset();

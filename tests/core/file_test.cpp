@@ -6,6 +6,7 @@
 
 #include "core/archives.h"
 #include "core/error.h"
+#include "core/temporary_folder.h"
 
 namespace mimicx {
 namespace {
@@ -29,7 +30,8 @@ TEST(WriteFile, ErrorStatesTheReasonAndLeavesNoFile) {
 }
 
 TEST(IsWithin, HoldsInEverySpellingAndThroughLinks) {
-  const fs::path folder = scratch("within");
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path;
   fs::create_directories(folder / "run");
   fs::create_directory_symlink(folder / "run", folder / "link");
   const fs::path run = folder / "run";

@@ -357,6 +357,9 @@ TEST(ReadMotion, SimulatedMotionsKeepRateAxesUnitAndFloor) {
   EXPECT_EQ(asked.trans, kept.trans);
   EXPECT_EQ(asked.rotations, kept.rotations);
   EXPECT_FALSE(asked.on_floor);
+  motion::Clip of_another = clip;
+  of_another.body_model = "smpl";
+  EXPECT_EQ(written_and_read(of_another, config).fps, 120.0) << "another program's member of this name";
   clip.passthrough.clear();
   EXPECT_EQ(written_and_read(clip, config).fps, 120.0) << "without forces the settings count";
 }
