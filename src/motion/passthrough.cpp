@@ -52,7 +52,7 @@ bool contains_one_of(std::string_view name, std::initializer_list<std::string_vi
 
 /// Whether files have rotation vectors of joints under this name.
 bool names_rotations(std::string_view name) {
-  if (contains_one_of(name, {"keypoint", "2d", "3d", "conf", "pca"})) return false;
+  if (contains_one_of(name, {"keypoint", "2d", "3d", "conf", "pca", "quat", "matri"})) return false;
   for (const std::string_view whole :
        {"poses", "poses_rest", "smpl_poses", "fullpose", "full_pose", "thetas", "theta", "pose"})
     if (name == whole) return true;

@@ -134,6 +134,8 @@ TEST(Resample, NumbersThatAreNoRotationsAreInterpolatedLinearly) {
         {"pose_hand_pca", std::vector<double>(45, 2.0), std::vector<double>(45, -1.0)},
         {"poses_conf", {3, 0, 0}, {-3, 0, 0}},
         {"pose_embedding", {3, 0, 0}, {-3, 0, 0}},
+        {"joint_orient_quat", {1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 0}},
+        {"body_pose_rotation_matrices", {1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 0}},
         {"body_pose", {500, 200, 1}, {510, 220, 1}}})
     for (std::size_t c = 0; c < first.size(); ++c)
       EXPECT_NEAR(halfway(name, first, second)[c], 0.5 * (first[c] + second[c]), 1e-12) << name;
