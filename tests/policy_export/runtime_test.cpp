@@ -152,7 +152,7 @@ TEST(PolicyRuntime, RotationsAreThoseOfTheCore) {
 
 TEST(PolicyRuntime, KeepsTheBoundOfActionsOfThePolicy) {
   files::StoredPolicy policy = small_policy();
-  policy.actions.max_action = 0.005;
+  policy.actions.max_action = 1.0 / 256.0;  // the runtime has it as a float
   const Largest largest = differences(export_policy(policy, false));
   EXPECT_LE(largest.observation, kRounding);
   EXPECT_LE(largest.target, kRounding);
