@@ -47,9 +47,8 @@ struct HorizonResult {
 
 /// Follows the cost's goal from the last state of `start` to frame `end`.
 /// @param start  at least one state, with the controls that led there
-/// @param guess  initial guess from frame 0 on; after its end, and without one, a frame starts with the
-/// goal's
-///               state and the controls of the window's frame before it, the first one with none
+/// @param guess  initial guess from frame 0 on. After its end, and without one, a frame starts with the state
+///               of the goal and the controls of the window's frame before it, the first one with none
 HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConfig& config,
                                 const PlanControl& control, Trajectory start, int end,
                                 const Trajectory& guess = {});

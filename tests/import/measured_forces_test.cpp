@@ -136,52 +136,46 @@ TEST(MeasuredForces, FlightOfAJumpIsSeen) {
   EXPECT_EQ(jump.told, "");
 }
 
+/// What is wrong with a file; empty: nothing.
+std::string error_of(const std::string& text) {
+  try {
+    measured_forces_from(text, "walk.mot");
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(MeasuredForces, ErrorsSayWhatWasExpected) {
-  const auto message = [](const std::string& text) {
-    try {
-      measured_forces_from(text, "walk.mot");
-    } catch (const DataError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_NE(message("HIERARCHY\n").find("endheader"), std::string::npos);
+  EXPECT_NE(error_of("HIERARCHY\n").find("endheader"), std::string::npos);
   std::string text = kOldMot;
-  EXPECT_NE(message(text.replace(text.find("1_ground_force_vz"), 17, "1_ground_force_vq"))
+  EXPECT_NE(error_of(text.replace(text.find("1_ground_force_vz"), 17, "1_ground_force_vq"))
                 .find("1_ground_force_vz"),
             std::string::npos);
   text = kOldMot;
-  EXPECT_NE(message(text + "0.005\t1\n").find("a number per column"), std::string::npos);
-  EXPECT_NE(message(text.replace(text.find("0.01\t"), 5, "0\t")).find("times that increase"),
+  EXPECT_NE(error_of(text + "0.005\t1\n").find("a number per column"), std::string::npos);
+  EXPECT_NE(error_of(text.replace(text.find("0.01\t"), 5, "0\t")).find("times that increase"),
             std::string::npos);
-  EXPECT_NE(message(with_said(kOldMot.substr(0, kOldMot.find("0\t1\t700")), "nRows", 0))
+  EXPECT_NE(error_of(with_said(kOldMot.substr(0, kOldMot.find("0\t1\t700")), "nRows", 0))
                 .find("at least one sample"),
             std::string::npos);
 }
 
 TEST(MeasuredForces, RowsAndColumnsMustBeAsManyAsTheHeaderSays) {
-  const auto message = [](const std::string& text) {
-    try {
-      measured_forces_from(text, "walk.mot");
-    } catch (const DataError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(message(kOldMot.substr(0, kOldMot.find("0.01\t1"))),
+  EXPECT_EQ(error_of(kOldMot.substr(0, kOldMot.find("0.01\t1"))),
             "walk.mot: line 8: expected 2 rows, as the header says, found 1")
       << "cut off behind a row";
-  EXPECT_EQ(message(with_said(kOldMot, "nColumns", 19)),
+  EXPECT_EQ(error_of(with_said(kOldMot, "nColumns", 19)),
             "walk.mot: line 7: expected 19 columns, as the header says, found 13");
   const auto with_rows = [](const std::string& line) {
     std::string text = kOldMot;
     return text.replace(text.find("nRows=2"), 7, line);
   };
   for (const std::string key : {"nRows = ", "nRows= ", "datarows ", "NROWS ="}) {
-    EXPECT_EQ(message(with_rows(key + "2\t\t")), "") << key;
-    EXPECT_NE(message(with_rows(key + "3\t\t")).find("expected 3 rows"), std::string::npos) << key;
+    EXPECT_EQ(error_of(with_rows(key + "2\t\t")), "") << key;
+    EXPECT_NE(error_of(with_rows(key + "3\t\t")).find("expected 3 rows"), std::string::npos) << key;
   }
-  EXPECT_EQ(message(with_rows("")), "");
+  EXPECT_EQ(error_of(with_rows("")), "");
 }
 
 TEST(MeasuredForces, ReadsTheForcesOfAnNpz) {
