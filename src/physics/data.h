@@ -82,6 +82,7 @@ struct Data {
   PerBody<Vec3<T>> tau;                ///< of the PD in use in this pass (bound applied)
   PerBody<T> delta;                    ///< in use in this pass, armature included
   PerBody<MaskOf<T>> saturated;        ///< PD torque is a constant at its bound
+  PerBody<MaskOf<T>> returned;         ///< was saturated after the last pass and is on the law again
 
   // articulated bodies (RBDA table 7.1): for a ball joint U = [A; Bᵀ], for a hinge U = (U_n; U_f)
   PerBody<Inertia<T>> IA;

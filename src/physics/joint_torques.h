@@ -67,7 +67,7 @@ Vec3<T> applied_range_torque(const Data<T>& d, int i) {
 template <class T>
 void use_pd_law(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int i = 1; i < kBodies; ++i) {
-    d.saturated[i] = T(0.0) > T(1.0);
+    d.saturated[i] = d.returned[i] = T(0.0) > T(1.0);
     d.tau[i] = d.tau_pd[i];
     d.delta[i] = T(model.armature[i]) + d.delta_pd[i] + d.delta_range[i];
   }
@@ -92,25 +92,31 @@ template <class T>
   }
 }
 
-/// After the last pass: saturates the joints that exceed their bound now, and changes no other joint or lane,
-/// so that solving again gives the same bits in an unaffected lane.
-/// @return mask of the lanes that must be solved again; each call saturates at least one more joint of such a
-///         lane, so that a lane needs at most 21 repetitions
+/// After the last pass: corrects the saturated set where the last solve contradicts it. A joint that exceeds
+/// its bound is saturated; a saturated joint whose law has turned against its torque returns to the law, once
+/// in a step. No other joint or lane changes, so that solving again gives the same bits in an unaffected
+/// lane.
+/// @return mask of the lanes that must be solved again; a joint changes at most three times, so a lane needs
+/// at
+///         most 63 repetitions
 template <class T>
-[[gnu::flatten]] MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] MaskOf<T> correct_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
   MaskOf<T> again = T(0.0) > T(1.0);
   for (int i = 1; i < kBodies; ++i) {
-    const T limit(model.torque_limit[i]);
-    const Vec3<T> torque = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
-    const T size_2 = dot(torque, torque);
+    const T limit(model.torque_limit[i]), armature(model.armature[i]);
+    const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
+    const T size_2 = dot(law, law);
     const MaskOf<T> over = (size_2 > limit * limit) & !d.saturated[i];
-    if (!any(over)) continue;
-    again = again | over;
+    const MaskOf<T> against = (dot(law, d.tau[i]) < T(0.0)) & d.saturated[i] & !d.returned[i];
+    const MaskOf<T> changes = over | against;
+    if (!any(changes)) continue;
+    again = again | changes;
     d.outdated[kParents[i]] = true;
-    d.saturated[i] = d.saturated[i] | over;
+    d.saturated[i] = (d.saturated[i] | over) & !against;
+    d.returned[i] = d.returned[i] | against;
     const T scale = limit / sqrt(max(size_2, limit * limit));
-    d.tau[i] = select<T>(over, scale * torque, d.tau[i]);
-    d.delta[i] = select(over, T(model.armature[i]) + d.delta_range[i], d.delta[i]);
+    d.tau[i] = select<T>(over, scale * law, select<T>(against, d.tau_pd[i], d.tau[i]));
+    d.delta[i] = armature + select(d.saturated[i], T(0.0), d.delta_pd[i]) + d.delta_range[i];
   }
   return again;
 }

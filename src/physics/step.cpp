@@ -54,7 +54,8 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
     apply_torque_bounds(model, d);
     solve(model, d);
   }
-  for (MaskOf<T> again = saturate_exceeding(model, d); any(again); again = saturate_exceeding(model, d)) {
+  for (MaskOf<T> again = correct_torque_bounds(model, d); any(again);
+       again = correct_torque_bounds(model, d)) {
     relinearise_ground(model, again, d);
     solve(model, d);
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "character/joint_range.h"
+#include "physics/contact_scenes.h"
 #include "physics/joint_torques.h"
 #include "physics/test_states.h"
 
@@ -189,6 +190,41 @@ TEST(TorqueBound, HoldsForEveryShapeAtEveryRateAndScalesWithTheMass) {
       EXPECT_GT(worst, 0.99) << "the test must drive joints into their bounds";
     }
   }
+}
+
+// clamp(law) has the law's sign. A torque that was saturated for contacts which the last solve then moved may
+// have the other one, and drive its joint like a motor.
+TEST(TorqueBound, SaturatedTorquesDoNotOpposeTheLaw) {
+  using P = Pack<kLanes>;
+  const Character character = make_character();
+  int returned = 0, opposed = 0, opposed_again = 0;
+  for (std::uint64_t first = 0; first < 200; first += kLanes) {
+    const auto s = std::make_unique<Simulation<P>>(character, SimulationConfig{});
+    for (int lane = 0; lane < kLanes; ++lane)
+      set_lane(snapshot_of(ContactScene::kDrop, character, first + static_cast<std::uint64_t>(lane)), lane,
+               s->state, s->target);
+    const auto count = [](const MaskOf<P>& mask) {
+      int lanes = 0;
+      for (int lane = 0; lane < kLanes; ++lane) lanes += ScalarTraits<P>::lane(mask, lane) ? 1 : 0;
+      return lanes;
+    };
+    for (int k = 0; k < 144; ++k) {
+      s->advance();
+      const Data<P>& d = s->data;
+      for (int i = 1; i < kBodies; ++i) {
+        const Vec3<P> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
+        const MaskOf<P> opposes = d.saturated[i] & (dot(law, d.tau[i]) < P(0.0));
+        returned += count(d.returned[i]);
+        opposed += count(opposes & !d.returned[i]);
+        opposed_again += count(opposes & d.returned[i]);
+      }
+    }
+  }
+  std::printf("  measured: %d returned to the law, %d of them saturated against it again\n", returned,
+              opposed_again);
+  EXPECT_EQ(opposed, 0);
+  EXPECT_GT(returned, 10) << "the test must turn laws against their torques";
+  EXPECT_LE(opposed_again, returned / 10);
 }
 
 // The bound would also hold for a controller without torque. Far from the bound the torque is the law's.

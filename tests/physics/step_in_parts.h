@@ -51,7 +51,8 @@ void solve_in_parts(const Model<RealOf<T>>& model, const Target<T>& target, cons
     apply_torque_bounds(model, d);
     solve_once_in_parts(model, d, parts);
   }
-  for (MaskOf<T> again = saturate_exceeding(model, d); any(again); again = saturate_exceeding(model, d)) {
+  for (MaskOf<T> again = correct_torque_bounds(model, d); any(again);
+       again = correct_torque_bounds(model, d)) {
     relinearise_ground(model, again, d);
     solve_once_in_parts(model, d, parts);
   }

@@ -138,7 +138,7 @@ struct Solves {
       solve_and_tabulate();
     }
     kept = d.saturated;
-    while (saturate_exceeding(model, d)) {
+    while (correct_torque_bounds(model, d)) {
       predicted_velocities(model, d, linearised);
       relinearise_ground(model, true, d);
       tabulate_saturated(model, d, kept, next().saturated);
