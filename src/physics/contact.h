@@ -2,7 +2,7 @@
 ///
 /// Floor (docs/physics.md §4, (7)). A point at depth s, with velocity v, pushes with
 ///     f_n = k s − (c + k dt) v_z       while that is positive,
-///     f_t = −c_t v_t,   c_t = μ f_n / √(|v_t|² + v_s²)                (regularised Coulomb friction),
+///     f_t = −c_t v_t,   c_t = min(μ f_n / √(|v_t|² + v_s²), m_f / dt)   (regularised Coulomb friction),
 /// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt),
 /// J = [−arm×, 1]. The solver therefore adds Jᵀ W J to the body's inertia and −Jᵀ(f − W ω×(ω×arm)) to its
 /// bias. The first pass takes f_n, c_t and the set of active contacts at the start of the step. Each later
@@ -27,7 +27,7 @@ void linearise_ground(const SimulationConfig& o, T dt, const Vec3<T>& v_end, Gro
   const T f_end = fma(k, depth, -(damping * v_end.z));
   const auto pushes = (depth > T(0.0)) & (f_end > T(0.0));
   const T slip = sqrt(fma(v_end.x, v_end.x, fma(v_end.y, v_end.y, T(o.slip_speed * o.slip_speed))));
-  const T c_t = T(o.friction) * f_end / slip;
+  const T c_t = min(T(o.friction) * f_end / slip, T(kMostFrictionMass) / dt);
   contact.f = {-c_t * contact.velocity.x, -c_t * contact.velocity.y,
                fma(k, depth, -(damping * contact.velocity.z))};
   contact.f = select<T>(pushes, contact.f, zero3<T>());

@@ -115,7 +115,7 @@ TEST(Plan, EndsWithWindowsShorterThanTheShortestVariant) {
 }
 
 /// A reference that stands, is lifted by `kHeight` and put down within 0.8 s: a jump without a crouch.
-constexpr double kHeight = 0.45;
+constexpr double kHeight = 0.5;
 System lifted() {
   constexpr int kFirst = 10, kFrames = 24;
   System system = system_of(synthetic_reference("stand", 501, 40));
@@ -128,13 +128,13 @@ System lifted() {
   return system;
 }
 
-/// The stage with weights two hundred thousand times as large fails; its repetition continues with the root
+/// The stage with weights ten thousand times as large fails; its repetition continues with the root
 /// of this factor, as if planning had started with it.
 TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   PlanConfig config = lost_soon();
-  config.stiffening = std::sqrt(2e5);
+  config.stiffening = std::sqrt(1e4);
   const Plan by_root = make_plan(lifted(), config, {.threads = 2});
-  config.stiffening = 2e5;
+  config.stiffening = 1e4;
   const Plan plan = make_plan(lifted(), config, {.threads = 2});
   EXPECT_EQ(plan.residuals, by_root.residuals);
   EXPECT_GT(plan.linearised, by_root.linearised) << "the stage that was lost";

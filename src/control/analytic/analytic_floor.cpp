@@ -77,11 +77,15 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   }
   const double slip_2 = velocity_used.head<2>().squaredNorm() + o.slip_speed * o.slip_speed;
   const double f_end = k * c.surface.depth - damping * velocity_used.z();
-  const double c_t = o.friction * f_end / std::sqrt(slip_2);
+  double c_t = o.friction * f_end / std::sqrt(slip_2);
   const FloorRow df_end = k * depth - damping * at.row(2);
   // docs/control_derivatives.md §3, (7)
-  const FloorRow dc_t = (c_t / f_end) * df_end -
-                        (c_t / slip_2) * (velocity_used.x() * at.row(0) + velocity_used.y() * at.row(1));
+  FloorRow dc_t = (c_t / f_end) * df_end -
+                  (c_t / slip_2) * (velocity_used.x() * at.row(0) + velocity_used.y() * at.row(1));
+  if (const double most = kMostFrictionMass / dt; c_t > most) {
+    c_t = most;
+    dc_t.setZero();
+  }
 
   const Vector3d v_end = to_eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
   FloorRows force;
