@@ -25,15 +25,10 @@ bool has_our_rows(const NpyArray& array, const std::vector<std::size_t>& row) {
          std::equal(row.begin(), row.end(), array.shape.begin() + 1);
 }
 
-/// Whether a motion of this body may come from our simulator.
-bool may_be_simulated(const motion::Clip& clip) {
-  return clip.body_model == "mimicx" || clip.rest_joints.has_value();
-}
-
 }  // namespace
 
 std::optional<RecordedForces> recorded_forces(const motion::Clip& clip, const std::string& file) {
-  if (!may_be_simulated(clip)) return std::nullopt;
+  if (!clip.has_simulated_body()) return std::nullopt;
   Npz npz;
   npz.path = file.empty() ? clip.name : file;
   for (const auto& [name, array] : clip.passthrough) {
@@ -52,7 +47,7 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip, const st
 
 double recorded_gravity(const motion::Clip& clip) {
   constexpr double kRounding = 1e-6;  // of the file's numbers, relative
-  if (!may_be_simulated(clip)) return kGravity;
+  if (!clip.has_simulated_body()) return kGravity;
   for (const auto& [name, array] : clip.passthrough) {
     if (name != kWeight || array.size() != 1 || array.type == NpyArray::Type::kText) continue;
     const double gravity = array.to_double().front() / motion::character_of(clip).total_mass();

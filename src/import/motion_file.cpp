@@ -397,12 +397,9 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
   throw DataError(path.string(), "", kMotions, content_in_words(bytes));
 }
 
-/// Whether an archive has a body that this program simulates.
-bool has_our_body(const motion::Clip& clip) { return clip.body_model == "mimicx" || clip.rest_joints; }
-
 /// Whether nothing is detected in an archive: it has our own layout, or says that this program wrote it.
 bool is_believed(const ReadConfig& o, motion::Clip& clip) {
-  if (has_our_body(clip)) return true;
+  if (clip.has_simulated_body()) return true;
   if (!motion::is_in_our_world(clip)) return false;
   if (!o.up && !o.scale) clip.decisions.emplace_back("world: z up, metres, as this program wrote it");
   return true;
@@ -419,9 +416,9 @@ void write_archive(const std::filesystem::path& path, const motion::Clip& clip) 
 /// A simulated motion keeps its frame rate, axes, unit and floor, to which its forces belong: the settings
 /// are for the files beside it, such as the truth that it is compared with.
 ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
-  const bool simulated =
-      has_our_body(clip) && std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
-                                        [](const auto& member) { return member.first == kFloorForces; });
+  const bool simulated = clip.has_simulated_body() &&
+                         std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
+                                     [](const auto& member) { return member.first == kFloorForces; });
   if (simulated && config.forces_keep_body) {
     config.mass.reset();
     config.height.reset();

@@ -64,6 +64,8 @@ struct Clip {
   }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.
   std::array<double, kBetas> usable_betas() const;
+  /// Whether the program simulates this body: its own, or one whose joints are known.
+  bool has_simulated_body() const { return body_model == "mimicx" || rest_joints; }
 };
 
 /// The body of a clip: from its rest joints where they are known, else from its usable betas.
