@@ -128,6 +128,7 @@ void write_substeps(const std::filesystem::path& path, const SubstepMotion& moti
   add_forces(motion, npz);
   npz.set("betas", NpyArray::from_double({kBetas}, motion.character.betas.data()));
   npz.set("body_model", NpyArray::scalar_text("mimicx"));
+  motion::add_rest_joints(motion.rest_joints, npz);
   motion::add_scene(motion.scene, npz);
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
   for (const auto& [name, number] : files::simulation_numbers(motion.simulation))
@@ -145,7 +146,9 @@ SubstepMotion read_substeps(const Npz& npz) {
   for (const double beta : shape)
     if (std::abs(beta) > kMaxBeta)
       throw DataError(npz.path, "betas", "shape parameters within ±5", text_of(beta));
-  motion.character = make_character(shape);
+  motion.rest_joints = motion::rest_joints_of(npz);
+  motion.character =
+      motion.rest_joints ? make_character_of_joints(*motion.rest_joints) : make_character(shape);
   motion.simulation = files::read_simulation(npz);
   motion.scene = motion::scene_of(npz);
   const NpyArray& q = npz.at("q");

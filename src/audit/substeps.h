@@ -1,11 +1,12 @@
 /// `substeps/NAME.npz`: every physics step of a simulated motion, for an exact audit and for a replay.
 ///
-/// The file holds everything that determines the simulation (shape, scene, all simulation settings, the state
+/// The file holds everything that determines the simulation (body, scene, all simulation settings, the state
 /// before each step and after the last one, the targets of the PD controllers) and the forces of each step.
 /// Numbers are the simulator's own (float32), so that a replay starts from the same bits.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "physics/model.h"
 #include "rl/tracking/tracking_rollout.h"
@@ -18,6 +19,8 @@ struct SubstepMotion {
   std::vector<rl::tracking::Substep> steps;
   motion::ReferenceFrame last;  ///< state after the last step
   Scene scene = {};             ///< the ground
+  /// The character's joints where they are known; else they are those of its betas.
+  std::optional<RestJoints> rest_joints = {};
 };
 
 void write_substeps(const std::filesystem::path& path, const SubstepMotion& motion);

@@ -331,22 +331,6 @@ void read_betas(const Npz& npz, Clip& clip) {
     clip.warnings.push_back("betas are given per frame: those of the first frame are used");
 }
 
-/// The body of a motion that was simulated with the user's own body model.
-void read_rest_joints(const Npz& npz, Clip& clip) {
-  if (!npz.has("rest_joints")) return;
-  const Member joints(npz, "rest_joints");
-  joints.expect_shape({kBodies, 3});
-  joints.expect_finite();
-  clip.rest_joints.emplace();
-  for (std::size_t i = 0; i < kBodies; ++i)
-    (*clip.rest_joints)[i] = Eigen::Map<const Vector3d>(joints.values.data() + 3 * i);
-  try {
-    make_character_of_joints(*clip.rest_joints);
-  } catch (const std::invalid_argument& error) {
-    joints.fail("the joints of a human", error.what());
-  }
-}
-
 void check_joint_names(const Npz& npz) {
   if (!npz.has("joint_names")) return;
   const std::vector<std::string>& names = npz.at("joint_names").text;
@@ -409,12 +393,6 @@ NpyArray scene_member(const Scene& scene) {
     values.insert(values.end(), {p.centre.x(), p.centre.y(), p.yaw, p.half_extents.x(), p.half_extents.y(),
                                  p.height, p.stiffness, p.damping});
   return NpyArray::from_double({scene.plates.size(), kPlateNumbers}, values.data());
-}
-
-NpyArray rest_joints_member(const RestJoints& joints) {
-  std::vector<double> values;
-  for (const Vector3d& p : joints) values.insert(values.end(), p.data(), p.data() + 3);
-  return NpyArray::from_double({kBodies, 3}, values.data());
 }
 
 /// Row `index` of the first dimension, elements untouched.
@@ -489,7 +467,7 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
     clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t) / unit);
   compare_sources(npz, sources, clip);
   clip.fps = read_fps(npz, config.fps, clip);
-  read_rest_joints(npz, clip);
+  clip.rest_joints = rest_joints_of(npz);
   read_betas(npz, clip);
   clip.scene = scene_of(npz);
   if (npz.has("gender")) clip.gender = member_text(npz, "gender").value_or("neutral");
@@ -531,6 +509,29 @@ void add_scene(const Scene& scene, Npz& npz) {
   if (!scene.flat()) npz.set(kSceneMember, scene_member(scene));
 }
 
+std::optional<RestJoints> rest_joints_of(const Npz& npz) {
+  if (!npz.has("rest_joints")) return std::nullopt;
+  const Member member(npz, "rest_joints");
+  member.expect_shape({kBodies, 3});
+  member.expect_finite();
+  RestJoints joints;
+  for (std::size_t i = 0; i < kBodies; ++i)
+    joints[i] = Eigen::Map<const Vector3d>(member.values.data() + 3 * i);
+  try {
+    make_character_of_joints(joints);
+  } catch (const std::invalid_argument& error) {
+    member.fail("the joints of a human", error.what());
+  }
+  return joints;
+}
+
+void add_rest_joints(const std::optional<RestJoints>& joints, Npz& npz) {
+  if (!joints) return;
+  std::vector<double> values;
+  for (const Vector3d& p : *joints) values.insert(values.end(), p.data(), p.data() + 3);
+  npz.set("rest_joints", NpyArray::from_double({kBodies, 3}, values.data()));
+}
+
 NpyArray joint_positions_member(const Clip& clip) {
   std::vector<double> values;
   for (const BodyPoses& pose : poses_of(clip))
@@ -561,7 +562,7 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
   npz.set("gender", NpyArray::scalar_text(clip.gender));
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
   npz.set("body_model", NpyArray::scalar_text(clip.body_model));
-  if (clip.rest_joints) npz.set("rest_joints", rest_joints_member(*clip.rest_joints));
+  add_rest_joints(clip.rest_joints, npz);
   add_scene(clip.scene, npz);
   if (clip.keypoints) add_keypoints(npz, *clip.keypoints);
   if (passed_on(clip, "pose_hand") && clip.body_model != "mimicx") {  // readers of SMPL-X files expect these

@@ -39,6 +39,11 @@ Scene scene_of(const Npz& npz);
 void add_scene(const Scene& scene, Npz& npz);
 inline constexpr const char* kSceneMember = "scene_plates";
 
+/// The joints of a body that are known, member `rest_joints` (22, 3), m; without the member none.
+/// @throws DataError naming file and member
+std::optional<RestJoints> rest_joints_of(const Npz& npz);
+void add_rest_joints(const std::optional<RestJoints>& joints, Npz& npz);
+
 /// The member by which an archive says that it is z up and in metres, and its text. Reading believes it.
 inline constexpr const char* kWorldMember = "mimicx_world";
 inline constexpr const char* kOurWorld = "z up, m";

@@ -149,7 +149,7 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
   else
     audit::write_substeps(with_parents(folder.substeps(entry.name)),
                           {motion.reference.character, run.method.simulation, made.after.substeps,
-                           made.after.last_state, motion.reference.scene});
+                           made.after.last_state, motion.reference.scene, motion.input.rest_joints});
   std::filesystem::remove(folder.policy(entry.name));
   if (made.taught) files::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
   entry.output = output;

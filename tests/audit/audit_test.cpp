@@ -14,6 +14,7 @@
 #include "files/inputs.h"
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
+#include "motion/uneven_joints.h"
 #include "program/configurations.h"
 #include "run/preparation.h"
 
@@ -109,6 +110,20 @@ TEST(Substeps, RecordingDoesNotChangeTheRollout) {
     EXPECT_EQ(with.forces[t].ground, without.forces[t].ground);
     EXPECT_EQ(with.forces[t].joint_torque, without.forces[t].joint_torque);
   }
+}
+
+TEST(Substeps, KnownJointsAreReadBack) {
+  const RestJoints joints = test::uneven_joints();
+  SubstepMotion motion = Thrown().steps();
+  motion.steps.resize(2);
+  motion.character = make_character_of_joints(joints);
+  motion.rest_joints = joints;
+  const SubstepMotion back = written_and_read(motion);
+  EXPECT_EQ(back.rest_joints, joints);
+  EXPECT_EQ(back.character.joint_offset, motion.character.joint_offset);
+  EXPECT_EQ(back.character.mass, motion.character.mass);
+  EXPECT_NE(make_character(motion.character.betas).joint_offset, motion.character.joint_offset)
+      << "betas alone make another body";
 }
 
 TEST(Substeps, DamagedFileIsNamed) {

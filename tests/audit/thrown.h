@@ -12,14 +12,16 @@ namespace mimicx::audit {
 /// recorded.
 /// @param size  of the jumps, rad per axis: 0.3 makes it thrash and fall
 /// @param scene  it stands on what is under the origin
+/// @param character  its bones nearly as long as the standard ones
 struct Thrown {
   rl::tracking::TrackingConfig config;
   motion::Reference reference = rl::tracking::swaying_reference(60);
   rl::tracking::TrackingRollout rollout;
 
-  explicit Thrown(double rate = 240.0, double size = 0.08, const Scene& scene = {}) {
+  explicit Thrown(double rate = 240.0, double size = 0.08, const Scene& scene = {},
+                  const Character& character = make_character({1.0, -2.0, 0.5, 0.0, 1.5})) {
     config.simulation.rate = rate;
-    reference.character = make_character({1.0, -2.0, 0.5, 0.0, 1.5});
+    reference.character = character;
     reference.scene = scene;
     const double height = scene.height_under({0.0, 0.0, 1e9});
     for (auto& f : reference.frames) f.p_root.z() += 0.05 + height;

@@ -282,7 +282,7 @@ std::string certify_file(const std::filesystem::path& path) {
   const Npz npz = parse_npz(bytes, path.string()), steps = read_npz(steps_path);
   const SubstepMotion motion = read_substeps(steps);
   const motion::Clip clip = motion::clip_from(npz, name);
-  if (clip.body_model != "mimicx" || clip.rest_joints)
+  if (clip.body_model != "mimicx" || clip.rest_joints || motion.rest_joints)
     throw DataError(path.string(), "body_model", "a body of our shapes, 'mimicx'",
                     "'" + clip.body_model + "'");
   if (clip.betas != motion.character.betas)
