@@ -41,17 +41,19 @@ bool changes_motions(const import::ReadConfig& read) {
 }  // namespace
 
 SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
-  if (clip.body_model != "mimicx")
-    throw DataError(npz.path, "body_model", "'mimicx' beside joint_torques", "'" + clip.body_model + "'");
+  if (!clip.has_simulated_body())
+    throw DataError(npz.path, "body_model", "'mimicx', or rest_joints, beside joint_torques",
+                    "'" + clip.body_model + "'");
   SimulatedFrames motion;
-  motion.character = make_character(clip.betas);
+  motion.character = motion::character_of(clip);
   motion.fps = clip.fps;
   motion.scene = clip.scene;
+  const Vector3d pelvis = motion::rest_pelvis(clip);
   const auto rotations = motion::joint_rotations(clip);
   const std::size_t rows = rotations.size();
   for (std::size_t t = 0; t < rows; ++t) {
     motion::ReferenceFrame frame;
-    frame.p_root = clip.trans[t] + rest_pelvis(clip.body_model);
+    frame.p_root = clip.trans[t] + pelvis;
     frame.q = rotations[t];
     motion.frames.push_back(frame);
   }

@@ -151,8 +151,7 @@ Audits audits_of(const ClipFiles& files, double fps) {
   if (files.input)
     if (const motion::Clip clip = motion::resampled(*files.input, fps); clip.frames() > 2)
       audits.input = audit::needs_on_floor(clip);
-  if (files.cleaned.body_model == "mimicx" && files.members.has("joint_torques") &&
-      files.cleaned.frames() > 1)
+  if (files.cleaned.has_simulated_body() && files.members.has("joint_torques") && files.cleaned.frames() > 1)
     audits.cleaned = audit::audit_recorded(files.cleaned, files.members);
   return audits;
 }

@@ -12,6 +12,8 @@
 #include "core/temporary_folder.h"
 #include "files/archive_members.h"
 #include "files/inputs.h"
+#include "files/motion_output.h"
+#include "files/recorded_forces.h"
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
 #include "motion/uneven_joints.h"
@@ -352,6 +354,26 @@ TEST_F(CleanedAndRaw, JointsOfTheFileAreThoseOfTheBodyThatIsJudged) {
   const Audit by_motion = audit_file(folder.path / "large.npz", false).at(0);
   EXPECT_NEAR(by_motion.weight, 9.81 * motion::character_of(large).total_mass(), 0.5);
   EXPECT_EQ(all_failures(by_motion), "");
+}
+
+// As `adapt --smplx --substeps` leaves them.
+TEST(Audit, FilesOfABodyOfKnownJointsAreJudgedWithItsBones) {
+  const motion::Clip input = test::on_uneven_joints(motion::standing_clip(60));
+  const Thrown thrown(240.0, 0.08, {}, motion::character_of(input));
+  const TemporaryFolder folder;
+  files::write_simulated(
+      folder.path / "motion.npz", input, thrown.reference, thrown.rollout,
+      files::simulation_members(thrown.config.simulation, thrown.reference.character.total_mass()));
+  SubstepMotion steps = thrown.steps();
+  steps.rest_joints = input.rest_joints;
+  write_substeps(folder.path / "steps.npz", steps);
+  const std::vector<Audit> frames = audit_file(folder.path / "motion.npz", false),
+                           both = audit_file(folder.path / "steps.npz", false);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].evidence, Evidence::kFrames);
+  EXPECT_EQ(all_failures(frames[0]), "");
+  ASSERT_EQ(both.size(), 2u);
+  for (const Audit& audit : both) EXPECT_EQ(all_failures(audit), "") << evidence_name(audit.evidence);
 }
 
 TEST_F(CleanedAndRaw, RejectsIncompleteForcesByName) {

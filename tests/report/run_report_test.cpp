@@ -9,9 +9,12 @@
 
 #include "core/file.h"
 #include "core/temporary_folder.h"
+#include "core/units.h"
+#include "files/archive_members.h"
 #include "judge/evaluate.h"
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
+#include "motion/uneven_joints.h"
 #include "pipeline/cluster_map.h"
 #include "pipeline/options/features.h"
 #include "record/json.h"
@@ -409,6 +412,40 @@ TEST(RunReport, ShowsOptionsAndCameraDetections) {
   Folder::write(run.run.input("clip 0"), of_input);
   EXPECT_FALSE(json_element(run.page(), "clip-0").at("camera").contains("told"))
       << "it was cleaned with the same";
+}
+
+// A body at rest on which nothing pushes: its weight is unexplained.
+TEST(RunReport, ShowsTheUnexplainedForceOfABodyOfKnownJoints) {
+  Folder run(1);
+  const motion::Clip clip = test::on_uneven_joints(raised(0.0));
+  files::VectorRows torques(kRunFrames);
+  files::WrenchRows wrenches(kRunFrames);
+  std::vector<motion::ReferenceFrame> still(kRunFrames);
+  for (std::size_t t = 0; t < kRunFrames; ++t) {
+    torques[t].fill(Vector3d::Zero());
+    wrenches[t].fill(Vector6d::Zero());
+    still[t].v_root.setZero();
+    still[t].omega.fill(Vector3d::Zero());
+  }
+  const auto precision = files::Precision::kFloat64;
+  motion::write_clip(run.run.root / run.manifest.sequences[0].output, clip,
+                     {{"velocities", files::velocities_member(still, precision)},
+                      {"joint_torques", files::joints_member(torques, precision)},
+                      {"range_torques", files::joints_member(torques, precision)},
+                      {"ground_wrenches", files::wrenches_member(wrenches, precision)},
+                      {"self_contact_wrenches", files::wrenches_member(wrenches, precision)}});
+  const auto shown = json_element(run.page(), "clip-0");
+  int found = 0;
+  for (const auto& chart : shown.at("charts").elements()) {
+    if (chart.at("title").at("words").get<std::string>() != "unexplained force") continue;
+    for (const auto& line : chart.at("lines").elements()) {
+      if (line.at("who").get<std::string>() != "cleaned") continue;
+      ++found;
+      const double weight = kGravity * motion::character_of(clip).total_mass();
+      EXPECT_NEAR(line.at("values").at(1).get<double>(), weight, 0.01 * weight);
+    }
+  }
+  EXPECT_EQ(found, 1);
 }
 
 TEST(RunReport, ShowsWallClockTimesOnlyOnRequest) {
