@@ -26,7 +26,7 @@ double shift_to_floor(const Character& c, const PerFrame<BodyPoses>& poses, cons
 /// The poses, moved to the floor where it is not known, and their upward shift, m.
 std::pair<PerFrame<BodyPoses>, double> on_floor(const Character& c, const motion::Clip& clip) {
   PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  if (clip.body_model == "mimicx" || clip.on_floor) return {poses, 0.0};
+  if (clip.body_model == "mimicx" || clip.is_simulated() || clip.on_floor) return {poses, 0.0};
   const double shift = shift_to_floor(c, poses, clip.scene);
   for (BodyPoses& frame : poses)
     for (Vector3d& p : frame.p_WB) p.z() += shift;

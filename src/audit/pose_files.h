@@ -1,10 +1,11 @@
 /// `mimicx audit --poses`: the feasibility of whole data sets, a row per motion and, where asked for, per
 /// frame.
 ///
-/// Motions of our body are not moved: those of our own layout, and those of other skeletons, which reading
-/// puts onto the floor. In any other file the floor is known to a few centimetres at best, and the body often
-/// not at all: the whole motion is shifted up or down until the 5th percentile of its lowest point is at z =
-/// 0, unless the user gives the floor (`ReadConfig::floor`). The shift is in the table.
+/// Simulated motions and those of our body are not moved: those of our own layout, and those of other
+/// skeletons, which reading puts onto the floor. In any other file the floor is known to a few centimetres at
+/// best, and the body often not at all: the whole motion is shifted up or down until the 5th percentile of
+/// its lowest point is at z = 0, unless the user gives the floor (`ReadConfig::floor`). The shift is in the
+/// table.
 #pragma once
 
 #include <functional>

@@ -45,8 +45,7 @@ constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences 
 constexpr const char* kMotions = "a motion (npz, npy, BVH, DeepMimic or .trc)";
 constexpr const char* kConverter =
     "tools/convert_video_results.py converts results of video estimators, and MDM's results.npy";
-constexpr const char* kFloorForces = "ground_wrenches";  ///< a member of simulated motions
-constexpr double kFloorWorthSaying = 0.05;               ///< m
+constexpr double kFloorWorthSaying = 0.05;  ///< m
 
 bool decided(const char* line, const motion::Clip& clip) {
   return std::find(clip.decisions.begin(), clip.decisions.end(), line) != clip.decisions.end();
@@ -416,9 +415,7 @@ void write_archive(const std::filesystem::path& path, const motion::Clip& clip) 
 /// A simulated motion keeps its frame rate, axes, unit and floor, to which its forces belong: the settings
 /// are for the files beside it, such as the truth that it is compared with.
 ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
-  const bool simulated = clip.has_simulated_body() &&
-                         std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
-                                     [](const auto& member) { return member.first == kFloorForces; });
+  const bool simulated = clip.is_simulated();
   if (simulated && config.forces_keep_body) {
     config.mass.reset();
     config.height.reset();

@@ -1,5 +1,7 @@
 #include "motion/clip.h"
 
+#include <algorithm>
+
 namespace mimicx::motion {
 
 Vector3d eye_of(const Eigen::Matrix4d& extrinsics) {
@@ -8,6 +10,12 @@ Vector3d eye_of(const Eigen::Matrix4d& extrinsics) {
 
 std::array<double, kBetas> Clip::usable_betas() const {
   return body_model == "mimicx" ? betas : std::array<double, kBetas>{};
+}
+
+bool Clip::is_simulated() const {
+  return has_simulated_body() && std::any_of(passthrough.begin(), passthrough.end(), [](const auto& member) {
+           return member.first == "ground_wrenches";
+         });
 }
 
 void require_usable(const Clip& clip, int frames) {

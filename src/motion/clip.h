@@ -66,6 +66,8 @@ struct Clip {
   std::array<double, kBetas> usable_betas() const;
   /// Whether the program simulates this body: its own, or one whose joints are known.
   bool has_simulated_body() const { return body_model == "mimicx" || rest_joints; }
+  /// Whether it comes from a simulation: it has the floor's forces on such a body.
+  bool is_simulated() const;
 };
 
 /// The body of a clip: from its rest joints where they are known, else from its usable betas.

@@ -7,12 +7,16 @@
 
 #include "audit/body_loads.h"
 #include "audit/feasibility.h"
+#include "audit/pose_files.h"
 #include "audit/pose_verdict.h"
 #include "audit/slip.h"
 #include "audit/thrown.h"
+#include "core/temporary_folder.h"
 #include "core/units.h"
+#include "motion/clip_file.h"
 #include "motion/raised_clip.h"
 #include "motion/standing_clip.h"
+#include "motion/uneven_joints.h"
 #include "physics/inverse_dynamics.h"
 #include "synth/synthesize.h"
 
@@ -290,6 +294,23 @@ TEST(PoseNeeds, RejectsFewerThanThreeFrames) {
   EXPECT_THROW(needs_of_poses(c, poses, 0.0), std::invalid_argument);
   EXPECT_THROW(needs_of_poses(c, poses, 30.0, {.window = -1.0}), std::invalid_argument);
   EXPECT_THROW(needs_of_poses(c, poses, 30.0, {.friction = -1.0}), std::invalid_argument);
+}
+
+// The floor of a foreign motion is not known, even if the joints of its body are.
+TEST(PoseFiles, SimulatedMotionOfKnownJointsKeepsItsHeight) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "a.npz").string();
+  const auto shift_of = [&](double lift, bool simulated) {
+    motion::Clip clip = test::on_uneven_joints(motion::standing_clip(10));
+    for (Vector3d& trans : clip.trans) trans.z() += lift;
+    if (simulated) clip.passthrough.emplace_back("ground_wrenches", NpyArray::scalar(0.0));
+    motion::write_clip(path, clip);
+    const PoseFile file = audit_pose_file(path, {});
+    EXPECT_EQ(file.failure, "");
+    return file.floor_shift;
+  };
+  EXPECT_EQ(shift_of(0.3, true), 0.0);
+  EXPECT_NEAR(shift_of(0.3, false), shift_of(0.0, false) - 0.3, 1e-9);
 }
 
 TEST(PoseVerdict, StretchesAreNamedAfterTheMostFrequentFault) {
