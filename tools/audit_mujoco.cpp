@@ -9,6 +9,7 @@
 #include <string>
 
 #include "audit/audit_file.h"
+#include "files/recorded_forces.h"
 #include "motion/clip_file.h"
 #include "oracles/mujoco_audit.h"
 
@@ -58,9 +59,9 @@ bool compare_file(const std::filesystem::path& path) {
     return compare(name, audit::audit_replayed_steps(motion), test::mujoco_audit_replayed_steps(motion)) &&
            recorded;
   }
-  const audit::SimulatedFrames motion =
-      test::on_hinge_axes(audit::simulated_frames(motion::read_clip(path), npz));
-  const physics::SimulationConfig simulation;
+  const motion::Clip clip = motion::clip_from(npz, name);
+  const audit::SimulatedFrames motion = test::on_hinge_axes(audit::simulated_frames(clip, npz));
+  const physics::SimulationConfig simulation = files::recorded_simulation(clip);
   return compare(name, audit::audit_frames(motion, simulation),
                  test::mujoco_audit_frames(motion, simulation));
 }
