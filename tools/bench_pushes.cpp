@@ -23,9 +23,9 @@ namespace {
 control::PushResult pushed(const record::RunFolder& run, const std::string& name,
                            const control::PushTest& test) {
   const files::StoredPlan stored = files::read_plan(run.plan(name));
-  const Character character = motion::character_of(motion::read_clip(run.reference(name)));
-  const control::System system =
-      control::make_system(character, stored.simulation, stored.reference, stored.fps);
+  const motion::Clip clip = motion::read_clip(run.reference(name));
+  const control::System system = control::make_system(motion::character_of(clip), stored.simulation,
+                                                      stored.reference, stored.fps, clip.scene);
   return control::test_pushes(system, control::make_cost(system, {}), control::trajectory_of(stored.plan),
                               files::read_gains(run.gains(name)).gains, test);
 }
