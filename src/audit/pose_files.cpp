@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
+#include "files/recorded_forces.h"
 #include "record/json.h"
 
 namespace mimicx::audit {
@@ -81,9 +82,13 @@ PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config)
     const Character character = motion::character_of(clip);
     const auto [poses, shift] = on_floor(character, clip);
     file.floor_shift = shift;
-    file.needs = needs_of_poses(character, poses, clip.fps, config.needs, clip.scene);
+    const physics::SimulationConfig simulation = files::recorded_simulation(clip);
+    PoseNeedsConfig needs = config.needs;
+    needs.friction = simulation.friction;
+    needs.gravity = simulation.gravity;
+    file.needs = needs_of_poses(character, poses, clip.fps, needs, clip.scene);
     file.verdict = verdict_on(file.needs);
-    file.slip = slip_of_poses(character, poses, clip.fps, clip.scene);
+    file.slip = slip_of_clip(clip, simulation.gravity);
     file.slip.speed.clear();
     if (!config.frames) file.needs.frames.clear();
   } catch (const std::exception& error) {

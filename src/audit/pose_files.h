@@ -20,8 +20,8 @@ namespace mimicx::audit {
 
 struct PoseFilesConfig {
   import::ReadConfig read;
-  PoseNeedsConfig needs;
-  bool frames = false;  ///< keep a row per frame
+  PoseNeedsConfig needs;  ///< friction and gravity are those that a simulated motion records, else the usual
+  bool frames = false;    ///< keep a row per frame
   int threads = 1;
 };
 
@@ -32,7 +32,7 @@ struct PoseFile {
   double floor_shift = 0.0;       ///< upward shift, m
   PoseVerdict verdict;
   PoseNeeds needs;  ///< without frames unless requested
-  Slip slip;        ///< with the best floor forces; without speeds
+  Slip slip;        ///< with the best floor forces, as `mimicx evaluate` has it; without speeds
 };
 
 /// The needs of a motion, moved to the floor as above. @throws std::invalid_argument as `needs_of_poses`

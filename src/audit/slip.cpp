@@ -10,6 +10,8 @@
 #include "audit/pose_needs.h"
 #include "core/quantile.h"
 #include "core/units.h"
+#include "motion/metrics.h"
+#include "motion/resample.h"
 #include "motion/surface_points.h"
 
 namespace mimicx::audit {
@@ -129,11 +131,11 @@ Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, doub
 }
 
 FloorForces best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                              const Scene& scene) {
+                              const Scene& scene, double gravity) {
   FloorForces out{FloorWrenches(poses.count()), {}};
   for (PerBody<Vector6d>& frame : out.ground) frame.fill(Vector6d::Zero());
   if (poses.count() < 3) return out;
-  const PoseNeedsConfig config{.reach = kFloorReach};
+  const PoseNeedsConfig config{.reach = kFloorReach, .gravity = gravity};
   const PerFrame<Vector6d> wanted = wanted_wrenches(character, poses, fps, config);
   PerFrame<List<Vector3d>> points;
   for (const BodyPoses& frame : poses) points.push_back(contact_positions(character, frame));
@@ -161,9 +163,15 @@ FloorForces best_floor_forces(const Character& character, const PerFrame<BodyPos
 }
 
 Slip slip_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                   const Scene& scene) {
-  const FloorForces forces = best_floor_forces(character, poses, fps, scene);
-  return slip_on_floor(poses, forces.ground, forces.height, kGravity * character.total_mass(), fps, scene);
+                   const Scene& scene, double gravity) {
+  const FloorForces forces = best_floor_forces(character, poses, fps, scene, gravity);
+  return slip_on_floor(poses, forces.ground, forces.height, gravity * character.total_mass(), fps, scene);
+}
+
+Slip slip_of_clip(const motion::Clip& clip, double gravity) {
+  const motion::Clip sampled = motion::resampled(clip, motion::kMetricRate);
+  return slip_of_poses(motion::character_of(sampled), motion::poses_of(sampled), sampled.fps, sampled.scene,
+                       gravity);
 }
 
 }  // namespace mimicx::audit

@@ -16,6 +16,8 @@
 
 #include "character/character.h"
 #include "core/containers.h"
+#include "core/units.h"
+#include "motion/clip.h"
 
 namespace mimicx::audit {
 
@@ -46,9 +48,11 @@ struct FloorForces {
   PerFrame<double> height;  ///< of the floor that gives them, over the ground of the scene, m
 };
 FloorForces best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                              const Scene& scene = {});
+                              const Scene& scene = {}, double gravity = kGravity);
 /// Slip by these forces.
 Slip slip_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                   const Scene& scene = {});
+                   const Scene& scene = {}, double gravity = kGravity);
+/// The same of a clip's poses at motion::kMetricRate.
+Slip slip_of_clip(const motion::Clip& clip, double gravity);
 
 }  // namespace mimicx::audit

@@ -58,6 +58,7 @@ double recorded_gravity(const motion::Clip& clip) {
 
 physics::SimulationConfig recorded_simulation(const motion::Clip& clip) {
   physics::SimulationConfig simulation;
+  if (!clip.has_simulated_body()) return simulation;
   simulation.gravity = recorded_gravity(clip);
   for (const auto& [name, array] : clip.passthrough) {
     if ((name != kFriction && name != kRate) || array.size() != 1 || array.type == NpyArray::Type::kText)

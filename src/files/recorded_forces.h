@@ -31,7 +31,7 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip, const st
 /// m/s², of the simulation that a motion comes from, by its member `body_weight`; of other motions kGravity.
 double recorded_gravity(const motion::Clip& clip);
 
-/// The settings of that simulation on which an audit of frames depends: gravity, friction and physics rate.
+/// The settings of that simulation on which an audit depends: gravity, friction and physics rate.
 physics::SimulationConfig recorded_simulation(const motion::Clip& clip);
 
 /// The members of which these are read: the weight of a body of this mass, kg, and friction and rate where

@@ -5,7 +5,6 @@
 #include "audit/chatter.h"
 #include "core/units.h"
 #include "files/recorded_forces.h"
-#include "motion/resample.h"
 
 namespace mimicx::judge {
 namespace {
@@ -46,13 +45,14 @@ audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& p
 }
 
 audit::Slip judge_clip(const motion::Clip& clip, motion::Metrics& metrics) {
-  const Character character = motion::character_of(clip);
+  const double gravity = files::recorded_gravity(clip);
   if (const auto forces = files::recorded_forces(clip))
-    return judge_forces({character, motion::poses_of(clip), forces->ground, clip.fps, clip.scene,
-                         files::recorded_gravity(clip)},
-                        metrics);
-  const motion::Clip sampled = motion::resampled(clip, motion::kMetricRate);
-  return judge_poses(character, motion::poses_of(sampled), motion::kMetricRate, clip.scene, metrics);
+    return judge_forces(
+        {motion::character_of(clip), motion::poses_of(clip), forces->ground, clip.fps, clip.scene, gravity},
+        metrics);
+  const audit::Slip slip = audit::slip_of_clip(clip, gravity);
+  take_slip(slip, metrics);
+  return slip;
 }
 
 }  // namespace mimicx::judge

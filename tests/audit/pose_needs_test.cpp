@@ -13,8 +13,11 @@
 #include "audit/thrown.h"
 #include "core/temporary_folder.h"
 #include "core/units.h"
+#include "files/recorded_forces.h"
+#include "judge/force_metrics.h"
 #include "motion/clip_file.h"
 #include "motion/raised_clip.h"
+#include "motion/resample.h"
 #include "motion/standing_clip.h"
 #include "motion/uneven_joints.h"
 #include "physics/inverse_dynamics.h"
@@ -311,6 +314,45 @@ TEST(PoseFiles, SimulatedMotionOfKnownJointsKeepsItsHeight) {
   };
   EXPECT_EQ(shift_of(0.3, true), 0.0);
   EXPECT_NEAR(shift_of(0.3, false), shift_of(0.0, false) - 0.3, 1e-9);
+}
+
+// The jump of `JumpAtAThirdOfTheSpeedIsFeasibleUnderANinthOfGravity`, and a walk, which needs friction.
+TEST(PoseFiles, SimulatedMotionIsJudgedWithItsOwnGravityAndFriction) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "a.npz").string();
+  const auto infeasible_share = [&](motion::Clip clip, const physics::SimulationConfig& simulation) {
+    clip.passthrough = files::simulation_members(simulation, motion::character_of(clip).total_mass());
+    motion::write_clip(path, clip);
+    const PoseFile file = audit_pose_file(path, {});
+    EXPECT_EQ(file.failure, "");
+    return value_of(file.verdict.values, "infeasible_share");
+  };
+  motion::Clip slow = exact("jump");
+  slow.fps /= 3.0;
+  physics::SimulationConfig light, smooth;
+  light.gravity = kGravity / 9.0;
+  smooth.friction = 0.0;
+  EXPECT_GT(infeasible_share(slow, {}), 0.0);
+  EXPECT_EQ(infeasible_share(slow, light), 0.0);
+  EXPECT_EQ(infeasible_share(exact("walk"), {}), 0.0);
+  EXPECT_GT(infeasible_share(exact("walk"), smooth), 0.0);
+}
+
+TEST(PoseFiles, SlipIsThatOfEvaluate) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "a.npz").string();
+  motion::Clip clip = motion::resampled(exact("walk"), 120.0);
+  for (int t = 0; t < clip.frames(); ++t) clip.trans[t].x() += 0.002 * ((t * 7919) % 13 - 6) / 6.0;
+  for (const char* model : {"mimicx", "smplx"}) {
+    clip.body_model = model;
+    motion::write_clip(path, clip);
+    motion::Metrics metrics;
+    const Slip evaluated = judge::judge_clip(import::read_motion(path), metrics),
+               audited = audit_pose_file(path, {}).slip;
+    EXPECT_GT(evaluated.loaded, 0) << model;
+    EXPECT_EQ(audited.mean, evaluated.mean) << model;
+    EXPECT_EQ(audited.share, evaluated.share) << model;
+  }
 }
 
 TEST(PoseVerdict, StretchesAreNamedAfterTheMostFrequentFault) {
