@@ -51,6 +51,7 @@ double recorded_gravity(const motion::Clip& clip) {
   for (const auto& [name, array] : clip.passthrough) {
     if (name != kWeight || array.size() != 1 || array.type == NpyArray::Type::kText) continue;
     const double gravity = array.to_double().front() / motion::character_of(clip).total_mass();
+    if (!std::isfinite(gravity) || gravity <= 0.0) continue;  // of another program
     return std::abs(gravity - kGravity) < kRounding * kGravity ? kGravity : gravity;
   }
   return kGravity;

@@ -6,11 +6,12 @@
 
 namespace mimicx::files {
 
-/// core/setting.h. `physics::make_model` refuses what is out of these ranges, too, and has the last word.
+/// core/setting.h. `physics::make_model` refuses what is out of these ranges, too, and has the last word. It
+/// also simulates without gravity, but slip and audits compare forces with the weight.
 void visit_settings(physics::SimulationConfig& s, const auto& visit) {
   visit("physics_rate", s.rate, 30, 10000, "physics steps per second");
   visit("physics_passes", s.passes, 1, 20, "linearisations of contacts and torque bounds per step");
-  visit("gravity", s.gravity, -1e9, 1e9, "gravity, downwards, m/s²");
+  visit("gravity", s.gravity, 1e-3, 1e9, "gravity, downwards, m/s²");
   visit("ground_stiffness", s.ground_stiffness, 1e-9, 1e9, "stiffness of a contact point on the floor, N/m");
   visit("ground_damping", s.ground_damping, 1e-9, 1e9, "damping of a contact point on the floor, N·s/m");
   visit("friction", s.friction, 0, 1e9, "coefficient of friction");

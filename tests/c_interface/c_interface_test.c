@@ -216,8 +216,9 @@ static void check_simulator(void) {
   place[0] = NAN;
   CHECK(mimicx_simulator_step(simulator, 1) == MIMICX_FAILED, "NaN is no place");
   mimicx_simulator_stand(simulator);
-  CHECK(mimicx_simulator_set(simulator, "gravity", 0.0) == MIMICX_OK, "%s",
+  CHECK(mimicx_simulator_set(simulator, "gravity", 1.62) == MIMICX_OK, "%s",
         mimicx_simulator_error(simulator));
+  CHECK(mimicx_simulator_set(simulator, "gravity", 0.0) == MIMICX_FAILED, "no weight");
   CHECK(mimicx_simulator_set(simulator, "friction", -1.0) == MIMICX_FAILED, "an impossible setting");
   CHECK(mimicx_simulator_set(simulator, "colour", 1.0) == MIMICX_FAILED, "no such setting");
   mimicx_array array;

@@ -188,9 +188,11 @@ class Simulating(unittest.TestCase):
     def test_settings_and_shapes_are_checked(self):
         with self.assertRaisesRegex(mimicx.Error, "friction"):
             mimicx.Simulator(friction=-1)
+        with self.assertRaisesRegex(mimicx.Error, "gravity: expected 0.001"):
+            mimicx.Simulator(gravity=0)
         with self.assertRaises(ValueError):
             mimicx.Simulator(betas=[1, 2])
-        body = mimicx.Simulator(betas=np.eye(10)[0], gravity=0)
+        body = mimicx.Simulator(betas=np.eye(10)[0], gravity=1.62)
         body.target_rotations[4] = 0
         with self.assertRaisesRegex(mimicx.Error, "left_knee"):
             body.step()

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/units.h"
 #include "files/pushed_clip.h"
 
@@ -59,6 +61,10 @@ TEST(RecordedForces, GravityIsThatOfTheSimulation) {
   clip.body_model = "smplx";
   EXPECT_EQ(recorded_gravity(clip), kGravity) << "another program's member";
   clip.body_model = "mimicx";
+  for (const double none : {0.0, -700.0, std::numeric_limits<double>::quiet_NaN()}) {
+    clip.passthrough.back().second = NpyArray::scalar(none);
+    EXPECT_EQ(recorded_gravity(clip), kGravity) << none;
+  }
   clip.passthrough.back().second = NpyArray::scalar_text("70 kg");
   EXPECT_EQ(recorded_gravity(clip), kGravity);
 }

@@ -404,7 +404,9 @@ TEST(PlanningSettings, RejectsImpossibleValuesByName) {
                                                                                {"plan_residual", 0},
                                                                                {"plan_position", -1},
                                                                                {"plan_stiffening", 1},
-                                                                               {"physics_rate", 100}}) {
+                                                                               {"physics_rate", 100},
+                                                                               {"gravity", 0},
+                                                                               {"gravity", -9.81}}) {
     PlanningConfig config;
     apply_setting(config, name, value);
     EXPECT_NE(refusal_of([&] { check(config); }).find(name), std::string::npos) << name;
