@@ -98,7 +98,8 @@ std::vector<std::filesystem::path> clusters_of(const pipeline::options::OptionSe
   return files;
 }
 
-/// @throws std::invalid_argument for options whose policies were trained with other actions
+/// @throws std::invalid_argument for options whose policies were trained with other actions, and for actions
+/// that no plan teaches
 void require_actions(const AdaptConfig& config) {
   const rl::tracking::ActionSettings& actions = config.training.tracking.actions;
   for (const auto& set : config.options)
@@ -106,6 +107,11 @@ void require_actions(const AdaptConfig& config) {
       throw std::invalid_argument("options: expected policies trained with " +
                                   pipeline::options::actions_in_words(actions) + ", found " +
                                   pipeline::options::actions_in_words(set->actions));
+  const rl::tracking::ActionSettings planned;
+  if (config.teaching.teach && actions != planned)
+    throw std::invalid_argument("--policy: expected the actions of a plan, " +
+                                pipeline::options::actions_in_words(planned) + ", found " +
+                                pipeline::options::actions_in_words(actions));
 }
 
 const char* name_of(AdaptMethod method) {

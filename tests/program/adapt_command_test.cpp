@@ -352,6 +352,13 @@ TEST_F(Adapt, RefusesOptionsOfTheOtherActions) {
   config.training.samples = 0;
   EXPECT_NE(run(config), record::RunOutcome::kInterrupted) << "these can be used";
   EXPECT_TRUE(std::filesystem::exists(out("run") / "manifest.json"));
+  config = adapting("taught", "absolute");
+  config.training.tracking.actions.mode = rl::tracking::ActionMode::kAbsolute;
+  config.method = AdaptMethod::kAuto;
+  config.teaching.teach = true;
+  EXPECT_EQ(refusal_of([&] { run(config); }),
+            "--policy: expected the actions of a plan, residual_actions=1, velocity_feed_forward=1, "
+            "target_ramp=1, found residual_actions=0, velocity_feed_forward=1, target_ramp=1");
 }
 
 TEST_F(Adapt, MethodPlanNeedsNoOptionsAndMatchesPlan) {
