@@ -46,10 +46,14 @@ std::vector<PlannedMotion> planned_motions(const record::RunFolder& run) {
   return motions;
 }
 
-std::vector<PlannedMotion> followed_plans(const record::RunFolder& run) {
+std::vector<PlannedMotion> followed_plans(const record::RunFolder& run, std::ostream* told) {
   std::vector<PlannedMotion> motions = planned_motions(run);
   std::erase_if(motions, [&](const PlannedMotion& motion) {
-    return !motion.followed || !std::filesystem::exists(run.gains(motion.name));
+    if (motion.followed && std::filesystem::exists(run.gains(motion.name))) return false;
+    if (told)
+      *told << run.plan(motion.name).string() << ": left out: "
+            << (motion.followed ? "it has no feedback gains" : "it was not followed to the end") << '\n';
+    return true;
   });
   return motions;
 }

@@ -5,6 +5,7 @@
 /// for policies that follow a planner.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct PlannedMotion {
 /// @throws DataError for a folder that is no run
 std::vector<PlannedMotion> planned_motions(const record::RunFolder& run);
 /// Those with a complete plan and gains.
-std::vector<PlannedMotion> followed_plans(const record::RunFolder& run);
+/// @param told  gets a line per other motion, which says why it is left out
+std::vector<PlannedMotion> followed_plans(const record::RunFolder& run, std::ostream* told = nullptr);
 
 /// The motion that a policy follows when a plan teaches or tests it.
 enum class Followed { kReference, kPlan };

@@ -30,12 +30,12 @@ record::RunOutcome plan_inputs(const TeachConfig& config, const record::RunConte
 }
 
 /// All plans to learn from: those of earlier runs, then those of this one.
-std::vector<PlannedMotion> motions_of(const TeachConfig& config) {
+std::vector<PlannedMotion> motions_of(const TeachConfig& config, std::ostream& told) {
   std::vector<PlannedMotion> motions;
   std::vector<std::filesystem::path> folders(config.plans.begin(), config.plans.end());
   if (!config.planning.run.inputs.empty()) folders.push_back(config.out / "plans");
   for (const std::filesystem::path& folder : folders) {
-    std::vector<PlannedMotion> more = followed_plans({folder});
+    std::vector<PlannedMotion> more = followed_plans({folder}, &told);
     if (more.empty())
       throw std::invalid_argument(folder.string() +
                                   " has no plan that was followed and has feedback gains: `mimicx plan "
@@ -201,7 +201,7 @@ record::RunOutcome teach_options(const TeachConfig& config, const record::RunCon
   record::RunOutcome outcome = record::RunOutcome::kAllGood;
   if (!config.planning.run.inputs.empty()) outcome = plan_inputs(config, context);
   if (outcome == record::RunOutcome::kInterrupted) return outcome;
-  const std::vector<PlannedMotion> motions = motions_of(config);
+  const std::vector<PlannedMotion> motions = motions_of(config, context.messages);
   const record::Json record = teaching_record(config, motions);
   if (pipeline::finished_outcome(folder, record)) {
     context.messages << folder.root.string() << ": these options are taught already\n";

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/file.h"
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
 #include "pipeline/options/option_set.h"
 #include "program/small_run.h"
+#include "record/manifest.h"
 #include "rl/tracking/tracking_rollout.h"
 #include "run/results.h"
 #include "teaching/plan_teachers.h"
@@ -146,6 +148,27 @@ TEST_F(Teach, FolderWithoutPlansErrorNamesTheCommand) {
       [&](const record::RunContext& context) { return plan::plan_motions(plan, context); });
   config.plans = {out("plans").string()};
   EXPECT_NE(refusal([&] { run(config); }).find("--gains"), std::string::npos);
+}
+
+TEST_F(Teach, SaysWhichPlansItLeavesOutAndWhy) {
+  teach_once("run");
+  const record::RunFolder plans{out("run") / "plans"};
+  std::filesystem::remove(plans.gains("stand20"));
+  record::Manifest manifest = record::read_manifest(plans.manifest());
+  for (record::SequenceEntry& entry : manifest.sequences)
+    if (entry.name == "stand24") entry.ending = record::SequenceEnding::kLost;
+  write_file_atomically(plans.manifest(), record::format_manifest(manifest));
+  TeachConfig config = teaching("again");
+  config.plans = {plans.root.string()};
+  config.planning.run.inputs.clear();
+  const program::Outcome taught = run(config);
+  EXPECT_EQ(taught.value, record::RunOutcome::kAllGood);
+  const auto said = [&](const std::string& line) {
+    return taught.messages.find(line + '\n') != std::string::npos;
+  };
+  EXPECT_TRUE(said(plans.plan("stand20").string() + ": left out: it has no feedback gains"));
+  EXPECT_TRUE(said(plans.plan("stand24").string() + ": left out: it was not followed to the end"));
+  EXPECT_EQ(taught.messages.find("stand28.npz: left out"), std::string::npos);
 }
 
 TEST_F(Teach, TeacherOnTheReferenceRepeatsThePlan) {
