@@ -54,14 +54,13 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
 InputScores score_input(const motion::Clip& input, const motion::Reference& reference) {
   const Character character = motion::character_of(input);
   const PerFrame<BodyPoses> poses = motion::poses_of(motion::resampled(input, reference.fps));
-  const Scene& scene = reference.scene;
-  const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps, scene);
+  const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps, input.scene);
   const bool same_length = raw.frames() == reference.size();
   const motion::MotionSamples prepared =
-      same_length ? motion::sample_motion(character, reference.poses, reference.fps, scene)
+      same_length ? motion::sample_motion(character, reference.poses, reference.fps, reference.scene)
                   : motion::MotionSamples{};
   motion::Metrics metrics = motion::evaluate_motion(raw, same_length ? &prepared : nullptr);
-  audit::Slip slip = judge_poses(character, poses, reference.fps, scene, metrics);
+  audit::Slip slip = judge_poses(character, poses, reference.fps, input.scene, metrics);
   return {named_values(metrics), std::move(slip)};
 }
 

@@ -35,8 +35,9 @@ struct InputScores {
   audit::Slip slip;  ///< of its poses, with their best floor forces
 };
 
-/// The unprepared input (free joints, its own height), resampled to the reference's frame rate, against the
-/// prepared reference; metrics against it are NaN if the reference has another number of frames.
+/// The unprepared input (free joints, its own height) on its own scene, resampled to the reference's frame
+/// rate, against the prepared reference, whose scene a fit may have moved; metrics against it are NaN if the
+/// reference has another number of frames.
 InputScores score_input(const motion::Clip& input, const motion::Reference& reference);
 
 }  // namespace mimicx::judge

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
+#include "motion/raised_clip.h"
 #include "motion/resample.h"
 #include "motion/standing_clip.h"
 
@@ -22,6 +24,17 @@ TEST(Scores, InputOfAnotherRateIsScoredAtTheReferencesRate) {
     if (!std::isnan(value)) {
       EXPECT_NEAR(value_of(at_120, name), value, 1e-6) << name;
     }
+}
+
+// A fit moves the feet, and the plates with them.
+TEST(Scores, InputStandsOnItsOwnScene) {
+  const motion::Clip input = test::raised(test::standing_clip(21, test::standing_height()));
+  motion::Reference reference = motion::prepare_reference(input, {}, nullptr);
+  for (const double moved : {0.05, -0.05}) {
+    reference.scene.plates[0].height = test::kRaised + moved;
+    const NamedValues values = score_input(input, reference).values;
+    for (const char* name : {"GP", "Float", "slip"}) EXPECT_NEAR(value_of(values, name), 0.0, 1e-6) << name;
+  }
 }
 
 }  // namespace
