@@ -50,7 +50,6 @@ NamedValues values_of(const fit::FitReport& r) {
 
 motion::PreparationConfig preparing(const CorrectionConfig& correction) {
   motion::PreparationConfig config;
-  config.sees = correction.fits_keypoints();
   if (correction.as_is)
     config.ranges = config.separate = config.level_feet = config.ground = config.plant =
         config.bridge_flagged = false;
@@ -157,6 +156,7 @@ PreparedMotion prepare_motion(motion::Clip input, const std::filesystem::path& p
   motion::PreparationReport report;
   const fit::FitReport& bridged = motion.has_fit ? fitting : planting;
   motion::PreparationConfig preparation = preparing(correction);
+  preparation.sees = motion.has_fit;
   preparation.flagged = bridged.flagged;
   motion.reference = motion::prepare_reference(motion.fitted, preparation, &report);
   report.limb_frames += bridged.limb_frames;

@@ -1,8 +1,10 @@
-/// A synthetic wave whose right hand is led through the head, as estimates do.
+/// A synthetic wave whose right hand is led through the head, as estimates do, and a camera that sees a
+/// motion.
 #pragma once
 
 #include <algorithm>
 
+#include "motion/keypoint_names.h"
 #include "motion/synthetic_clip.h"
 
 namespace mimicx::test {
@@ -73,6 +75,29 @@ inline motion::Clip clip_with_passing_hand(double aside = 0.0) {
     for (int body : {kRightShoulder, kRightElbow}) clip.rotations[t][body] = log_map(q[body]);
   }
   return clip;
+}
+
+/// A camera that looks along a direction of the world at the head, from 4 m away, and what it sees of the
+/// joints of a motion.
+inline motion::Keypoints seen_along(const PerFrame<BodyPoses>& all, const Vector3d& direction) {
+  motion::Keypoints keypoints;
+  keypoints.names = motion::keypoint_names(motion::KeypointSet::kJoints22);
+  keypoints.intrinsics << 1000, 0, 500, 0, 1000, 500, 0, 0, 1;
+  const Vector3d forward = direction.normalized(), down = -Vector3d::UnitZ();
+  Matrix3d R;
+  R << down.cross(forward).transpose(), down.transpose(), forward.transpose();
+  Eigen::Matrix4d E = Eigen::Matrix4d::Identity();
+  E.topLeftCorner<3, 3>() = R;
+  E.topRightCorner<3, 1>() = -R * (all[0].p_WB[kHead] - 4.0 * forward);
+  keypoints.extrinsics = {E};
+  for (const BodyPoses& poses : all) {
+    keypoints.uvc.emplace_back();
+    for (const Vector3d& p : poses.p_WB) {
+      const Vector3d pixel = keypoints.intrinsics * (E * p.homogeneous()).head<3>();
+      keypoints.uvc.back().push_back({pixel.x() / pixel.z(), pixel.y() / pixel.z(), 1.0});
+    }
+  }
+  return keypoints;
 }
 
 }  // namespace mimicx::test

@@ -12,6 +12,7 @@
 #include "import/world_transform.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
+#include "motion/passing_hand.h"
 #include "motion/prepare/stance.h"
 #include "motion/standing_clip.h"
 #include "synth/synthesize.h"
@@ -66,6 +67,23 @@ TEST(Preparation, KeypointsThatContradictTheMotionAreSaidAndIgnored) {
     for (int t = 0; t < ignored.reference.size(); ++t)
       EXPECT_LT((prepared.reference.frames[t].p_root - ignored.reference.frames[t].p_root).norm(), 1e-4);
   }
+}
+
+TEST(Preparation, KeypointsThatTheFitRefusesLeadNoHandAroundTheHead) {
+  motion::Clip clip = test::clip_with_passing_hand();
+  const PerFrame<BodyPoses> others = motion::poses_of(test::clip_with_passing_hand(0.16));
+  clip.keypoints = test::seen_along(others, others[test::kPassageFrom].q_WB[kHead] * -Vector3d::UnitZ());
+  const auto keep_arms = [](auto& points) { points.erase(points.begin(), points.begin() + kRightShoulder); };
+  keep_arms(clip.keypoints->names);  // five points: a fit needs six
+  for (auto& frame : clip.keypoints->uvc) keep_arms(frame);
+  const PreparedMotion ignored = prepare_motion(clip, "wave.npz", {}, {}),
+                       refused = prepare_motion(clip, "wave.npz", {}, {.fit = true});
+  EXPECT_FALSE(refused.has_fit);
+  EXPECT_EQ(value_of(refused.preparation_values, "passages"), 1.0);
+  for (int t = 0; t < ignored.reference.size(); ++t)
+    for (const int body : {kRightShoulder, kRightElbow})
+      ASSERT_EQ(refused.reference.frames[t].q[body].coeffs(), ignored.reference.frames[t].q[body].coeffs())
+          << t;
 }
 
 TEST(Preparation, SaysThatKeypointsOfAHalfSizedPictureMoveThePersonAway) {

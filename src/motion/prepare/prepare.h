@@ -34,7 +34,7 @@ struct PreparationConfig {
   double fps = 30.0;
   bool ranges = true;           ///< bring joints inside their ranges
   bool separate = true;         ///< lead limbs around the body, and move arms out of it
-  bool sees = true;             ///< keypoints help to decide where a limb goes around the body
+  bool sees = false;            ///< fitted to its keypoints: they help to decide where a limb goes around
   bool level_feet = true;       ///< remove a constant error in the pitch and roll of standing feet
   bool ground = true;           ///< align with the floor
   bool plant = true;            ///< put standing feet on one place of the floor, if `ground`

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/keypoint_names.h"
 #include "motion/passing_hand.h"
 #include "motion/prepare/arm_separation.h"
 #include "motion/prepare/prepare.h"
@@ -123,29 +122,6 @@ TEST(SelfPassage, ForearmStaysAHinge) {
     EXPECT_LT(log_map(frame.q[kRightElbow]).cross(hinge_axis(kRightElbow)).norm(), 1e-9);
 }
 
-/// A camera that looks along a direction of the world at the head, from 4 m away, and what it sees of the
-/// joints of a motion.
-Keypoints seen_along(const Reference& reference, const Vector3d& direction) {
-  Keypoints keypoints;
-  keypoints.names = keypoint_names(KeypointSet::kJoints22);
-  keypoints.intrinsics << 1000, 0, 500, 0, 1000, 500, 0, 0, 1;
-  const Vector3d forward = direction.normalized(), down = -Vector3d::UnitZ();
-  Matrix3d R;
-  R << down.cross(forward).transpose(), down.transpose(), forward.transpose();
-  Eigen::Matrix4d E = Eigen::Matrix4d::Identity();
-  E.topLeftCorner<3, 3>() = R;
-  E.topRightCorner<3, 1>() = -R * (reference.poses[0].p_WB[kHead] - 4.0 * forward);
-  keypoints.extrinsics = {E};
-  for (const BodyPoses& poses : reference.poses) {
-    keypoints.uvc.emplace_back();
-    for (const Vector3d& p : poses.p_WB) {
-      const Vector3d pixel = keypoints.intrinsics * (E * p.homogeneous()).head<3>();
-      keypoints.uvc.back().push_back({pixel.x() / pixel.z(), pixel.y() / pixel.z(), 1.0});
-    }
-  }
-  return keypoints;
-}
-
 /// Largest shift of the hand along each axis of the head.
 Vector3d largest_shift(const Reference& before, const Reference& after) {
   Vector3d largest = Vector3d::Zero();
@@ -160,13 +136,24 @@ TEST(SelfPassage, KeypointsChooseTheSide) {
   const Reference blind = passing_hand();
   Reference seen = blind, unseen = blind;
   const Vector3d back = blind.poses[test::kPassageFrom].q_WB[kHead] * -Vector3d::UnitZ();
-  seen.keypoints = seen_along(unrepaired(test::clip_with_passing_hand(0.16)), back);
+  seen.keypoints = test::seen_along(unrepaired(test::clip_with_passing_hand(0.16)).poses, back);
   EXPECT_EQ(lead_limbs_around(seen).remaining, 0);
   EXPECT_EQ(lead_limbs_around(unseen).remaining, 0);
   const Vector3d by_sight = largest_shift(blind, seen), without = largest_shift(blind, unseen);
   EXPECT_GT(by_sight.x(), 1.4 * without.x());
   EXPECT_LT(by_sight.y(), without.y());
   EXPECT_LT(deepest_in_head(seen, kRightWrist), 0.04);
+}
+
+TEST(SelfPassage, KeypointsOfAMotionThatIsNotFittedToThemChooseNothing) {
+  Clip clip = test::clip_with_passing_hand();
+  const Reference blind = prepare_reference(clip, {}, nullptr);
+  const PerFrame<BodyPoses> others = poses_of(test::clip_with_passing_hand(0.16));
+  clip.keypoints = test::seen_along(others, others[test::kPassageFrom].q_WB[kHead] * -Vector3d::UnitZ());
+  const Reference unfitted = prepare_reference(clip, {}, nullptr);
+  for (int t = 0; t < blind.size(); ++t)
+    for (const int body : {kRightShoulder, kRightElbow})
+      ASSERT_EQ(unfitted.frames[t].q[body].coeffs(), blind.frames[t].q[body].coeffs()) << t;
 }
 
 TEST(SelfPassage, ExactMotionsStayByteIdentical) {
