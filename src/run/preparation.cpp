@@ -142,8 +142,8 @@ PreparedMotion prepare_motion(motion::Clip input, const std::filesystem::path& p
   fit::FitReport fitting, planting;
   if (motion.has_fit) {
     motion.fitted = fit::fit_keypoints(motion.input, config, &fitting);
-    motion.fit_values = values_of(fitting);
     motion.has_fit = fitting.fitted;
+    if (motion.has_fit) motion.fit_values = values_of(fitting);
   }
   if (correction.as_is)
     motion.fitted = motion.input;

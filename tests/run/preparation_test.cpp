@@ -62,6 +62,7 @@ TEST(Preparation, KeypointsThatContradictTheMotionAreSaidAndIgnored) {
     const PreparedMotion prepared = prepared_with(change);
     EXPECT_FALSE(prepared.has_fit);
     EXPECT_FALSE(prepared.reference.keypoints.has_value());
+    EXPECT_TRUE(prepared.fit_values.empty()) << "of a fit that was not made";
     ASSERT_FALSE(prepared.notes.empty());
     EXPECT_NE(prepared.notes.front().find("not fitted"), std::string::npos) << prepared.notes.front();
     for (int t = 0; t < ignored.reference.size(); ++t)
