@@ -12,10 +12,10 @@ constexpr std::size_t kMostFrames = 300000;  ///< that a lower rate is made to: 
 
 constexpr double kEnd = 0.05;  ///< frames
 
-/// A keypoint between two frames. Where both detected it, it is interpolated and keeps the lower confidence;
-/// else it is that of the nearer frame.
+/// A keypoint at a frame (`share` 0), or between two. Where both detected it, one between them is
+/// interpolated and keeps the lower confidence; else it is that of the nearer frame.
 Vector3d interpolate_keypoint(const Vector3d& a, const Vector3d& b, double share) {
-  if (a.z() <= 0.0 || b.z() <= 0.0) return share < 0.5 ? a : b;
+  if (share == 0.0 || a.z() <= 0.0 || b.z() <= 0.0) return share < 0.5 ? a : b;
   Vector3d uvc = (1.0 - share) * a + share * b;
   uvc.z() = std::min(a.z(), b.z());
   return uvc;

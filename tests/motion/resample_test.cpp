@@ -57,6 +57,15 @@ TEST(Resample, KeypointsAndMovingCamerasFollow) {
   EXPECT_LT((third.keypoints->extrinsics[1].topLeftCorner<3, 3>() - Matrix3d::Identity()).norm(), 1e-12);
 }
 
+TEST(Resample, KeypointsAtFramesOfTheInputAreTheInputs) {
+  Clip clip = test::clip_with_everything();
+  clip.fps = 60.0;
+  for (std::size_t t = 1; t < clip.keypoints->uvc.size(); t += 2)
+    for (Vector3d& point : clip.keypoints->uvc[t]) point.z() = 0.1;
+  const Clip half = resampled(clip, 30.0);
+  for (int k = 0; k < half.frames(); ++k) EXPECT_EQ(half.keypoints->uvc[k], clip.keypoints->uvc[2 * k]) << k;
+}
+
 TEST(Resample, ResamplesPerFrameMembersAndKeepsTheOthers) {
   Clip clip = test::standing_clip(9, 1.0, 120.0);
   const Vector3d axis = Vector3d(2, -1, 3).normalized();
