@@ -12,7 +12,6 @@
 #include "motion/prepare/feet.h"
 #include "motion/prepare/floor_correction.h"
 #include "motion/prepare/foot_planting.h"
-#include "motion/prepare/glitches.h"
 #include "motion/prepare/ground_slope.h"
 #include "motion/prepare/hinge.h"
 #include "motion/prepare/joint_ranges.h"
@@ -212,7 +211,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
                     formatted("%d frames at %g fps", clip.frames(), clip.fps));
   require_usable(input, 2);
   const BridgedClip whole =
-      config.bridge_flagged ? bridged(input) : BridgedClip{input, find_glitches(input), 0};
+      config.bridge_flagged ? bridged(input) : BridgedClip{input, PerFrame<bool>(input.frames(), false), 0};
   Reference out;
   out.name = clip.name;
   out.fps = config.fps;

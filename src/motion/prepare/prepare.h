@@ -25,7 +25,7 @@ struct PreparationReport {
   int passages = 0;            ///< of limbs through the body that were led around it (self_passage.h)
   int passages_left = 0;       ///< for which no way around was found
   double foot_level_deg = 0;   ///< largest constant rotation by which level_feet turned a sole or toes
-  int flagged_frames = 0;      ///< frames of glitches (glitches.h)
+  int flagged_frames = 0;      ///< frames of glitches that were bridged (glitches.h)
   int limb_frames = 0;  ///< frames of glitches of single limbs (limb_glitches.h), summed over the limbs
   std::vector<std::string> notes;
 };

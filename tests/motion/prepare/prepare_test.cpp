@@ -116,6 +116,16 @@ TEST(Prepare, FlaggedFramesAreBridgedAndReported) {
     for (const Vector3d& w : f.omega) EXPECT_LT(w.norm(), 25.0);
 }
 
+TEST(Prepare, FramesThatAreNotBridgedAreNotFlagged) {
+  const Clip clip = test::with_glitch(test::random_clip(6, 90, 0.3), 40, 43, 2.0);
+  PreparationConfig as_it_is;
+  as_it_is.bridge_flagged = false;
+  PreparationReport report;
+  const Reference r = prepare_reference(clip, as_it_is, &report);
+  EXPECT_EQ(report.flagged_frames, 0) << "the manifest's number of bridged frames";
+  EXPECT_EQ(r.flagged, PerFrame<bool>(90, false));
+}
+
 TEST(Prepare, NotesSignsOfWrongAxesScaleOrRate) {
   const auto notes = [](const Clip& clip) {
     PreparationReport report;
