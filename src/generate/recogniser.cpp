@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/decompositions.h"
+#include "core/units.h"
 #include "nn/parameter_training.h"
 
 namespace mimicx::generate {
@@ -27,6 +28,15 @@ nn::Matrix<float> summaries_of(std::span<const LabelledMotion> motions) {
         (of_changes.squares / of_changes.count).cwiseSqrt().cast<float>();
   }
   return all;
+}
+
+/// What a summary says of a pose's number is scaled by its deviation over exact motions, but at least by
+/// this: 1° of a rotation, 5 mm of height, 1 mm and 0.001 rad of the way and the turn in a frame. Wrists and
+/// collars of exact motions hardly move; by their own deviations, errors that nobody sees would count as much
+/// as another motion.
+float least_deviation(Eigen::Index number) {
+  if (number < 3) return 0.001F;
+  return number == 3 ? 0.005F : static_cast<float>(kDegree);
 }
 
 struct Gaussian {
@@ -61,6 +71,10 @@ Recogniser::Recogniser(std::span<const LabelledMotion> truth, int labels, const 
     : labels_(labels, config.vector_size) {
   const nn::Matrix<float> summaries = summaries_of(truth);
   summaries_ = nn::normaliser_of(summaries, 3.0F);
+  for (Eigen::Index k = 0; k < summaries.cols(); ++k) {
+    float& factor = summaries_.factor(0, k);
+    factor = std::min(factor, 1.0F / least_deviation(k % kPoseNumbers));
+  }
   nn::Matrix<float> normal;
   nn::normalise(summaries_, summaries, normal);
 

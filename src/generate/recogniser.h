@@ -1,10 +1,11 @@
 /// Recognises what a motion shows, and scores generated motions by it.
 ///
 /// A perceptron maps a summary of a motion (mean and deviation of every number, deviation of its change over
-/// a third of a second) to a vector; every label has a vector, too. It is trained, by softmax over the
-/// negative squared distances, to map motions near the vector of their label. Labels replace the paper's
-/// texts; a label's vector replaces the text's embedding. Source of the scores: Guo et al., "Generating
-/// diverse and natural 3D human motions from text", CVPR 2022; Heusel et al., NeurIPS 2017 (FID).
+/// a third of a second; each in units of its deviation over exact motions, or of 1° or 5 mm if that is less)
+/// to a vector; every label has a vector, too. It is trained, by softmax over the negative squared
+/// distances, to map motions near the vector of their label. Labels replace the paper's texts; a label's
+/// vector replaces the text's embedding. Source of the scores: Guo et al., "Generating diverse and natural
+/// 3D human motions from text", CVPR 2022; Heusel et al., NeurIPS 2017 (FID).
 ///
 /// Deviation: R-precision ranks all labels once instead of 32 texts drawn at random; diversity is the mean
 /// over all pairs of motions instead of 300 random ones.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "generate/toy_motions.h"
 
 namespace mimicx::generate {
@@ -58,6 +59,22 @@ TEST(Recogniser, KnowsTheLabelsOfMotionsThatItHasNotSeen) {
   const GenerationScores of_one = recogniser.scores(one, test);
   EXPECT_NEAR(of_one.diversity, 0.0, 1e-5);
   EXPECT_GT(of_one.fid, 1.0);
+}
+
+// Exact motions hardly move their wrists. Measured by that, half a degree would count as much as ten do.
+TEST(Recogniser, TinyErrorsOfNumbersThatAreConstantCountLittle) {
+  const auto test = toy_motions(4, 5, 2);
+  RecogniserConfig config;
+  config.steps = 300;
+  config.noise = 0.1;
+  const Recogniser recogniser(toy_motions(4, 10, 1), 4, config, 1);
+  const auto fid_with_wrists_turned_by = [&](double degrees) {
+    auto turned = test;
+    for (LabelledMotion& motion : turned)
+      motion.numbers.middleCols(4 + 3 * kLeftWrist, 6).array() += static_cast<float>(degrees * kDegree);
+    return recogniser.scores(turned, test).fid;
+  };
+  EXPECT_LT(fid_with_wrists_turned_by(0.5), 0.2 * fid_with_wrists_turned_by(10.0));
 }
 
 }  // namespace
