@@ -56,7 +56,8 @@ fs::path find_policy(const fs::path& asked) {
     for (fs::path at = asked.parent_path(); at.has_filename();
          below = at.filename() / below, at = at.parent_path()) {
       const fs::path run = at.parent_path();
-      if (!fs::exists(run / "manifest.json") || at.filename() == "policies") continue;
+      if (!fs::exists(run / "manifest.json")) continue;
+      if (at.filename() == "policies") break;
       const std::string name = fs::path(below).replace_extension().string();
       const fs::path file = record::RunFolder{run}.policy(name);
       if (fs::is_regular_file(file)) return file;

@@ -73,6 +73,16 @@ TEST_F(CliPolicy, UnderstandsOtherFilesOfTheMotion) {
   EXPECT_TRUE(says(none, "has no policy jog")) << none.text;
 }
 
+// tools/demo makes such a run.
+TEST_F(CliPolicy, TakesAPolicyOfARunInTheFolderOfAnother) {
+  write_file_atomically(path("run/manifest.json"), "{}");
+  write_file_atomically(path("manifest.json"), "{}");
+  for (const std::string name : {"run/policies/walk.npz", "run/policies/more/walk.npz"}) {
+    const Call call = mimicx("export-policy " + path(name) + " --out " + path("x.h"));
+    EXPECT_EQ(call.status, 0) << call.text;
+  }
+}
+
 TEST_F(CliPolicy, WritesSeveralIntoOneHeaderAlone) {
   std::filesystem::copy_file(path("run/policies/walk.npz"), path("run/policies/stroll.npz"));
   const std::string both = "export-policy " + path("run/walk") + " " + path("run/stroll");
