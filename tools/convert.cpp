@@ -51,7 +51,7 @@ int convert(const ConvertArguments& a) {
   claim_output(a);
   motion::Clip clip = import::read_motion(a.in, a.read);
   files::ExchangeConfig config = a.exchange;
-  config.forces_lost = files::other_reading(a.read);
+  config.forces_lost = files::other_reading(clip, a.read);
   if (a.rate == "30" && clip.fps != 30.0) {
     clip = motion::resampled(clip, 30.0);
     config.forces_lost = "one at another frame rate than it was simulated at (--rate 30)";

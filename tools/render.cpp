@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -82,22 +83,27 @@ std::string name_of(const std::filesystem::path& file) {
   return (folder.empty() ? file.filename() : folder / file.filename()).string();
 }
 
+/// @throws DataError also where arrows are to be shown and no motion has forces
 List<picture::PosedMotion> motions_of(const RenderArguments& a) {
   const int count = static_cast<int>(a.files.size());
   List<motion::Clip> clips;
+  std::string without = a.files.front(), found = "none: mimicx plan writes motions with forces";
   for (const std::string& file : a.files) {
     clips.push_back(import::read_motion(file, a.read));
     motion::require_usable(clips.back(), 1);
     run::tell_decisions(file, clips.back(), std::cerr);
+    const std::string lost = files::other_reading(clips.back(), a.read);
+    if (!lost.empty() && files::remove_recorded(clips.back())) without = file, found = lost;
   }
   List<picture::PosedMotion> motions(count);
   parallel_for(count, a.threads, [&](int k) {
-    const bool shows = a.arrows && a.read.text().empty();
     motions[k] =
-        picture::posed_motion(clips[k], a.skin, shows ? files::recorded_forces(clips[k]) : std::nullopt);
+        picture::posed_motion(clips[k], a.skin, a.arrows ? files::recorded_forces(clips[k]) : std::nullopt);
     const auto i = static_cast<std::size_t>(k);
     motions[k].label = a.labels.empty() ? name_of(a.files[i]) : a.labels[i];
   });
+  const bool forces = std::any_of(motions.begin(), motions.end(), [](const auto& p) { return !p.forces.empty(); });
+  if (a.arrows && !forces) throw DataError(without, "", "a motion with forces", found);
   return motions;
 }
 
@@ -136,11 +142,6 @@ int render(const RenderArguments& a) {
                      " motions, found " + std::to_string(a.labels.size()));
   claim_picture(a);
   const List<picture::PosedMotion> motions = motions_of(a);
-  bool forces = false;
-  for (const picture::PosedMotion& p : motions) forces |= !p.forces.empty();
-  if (const std::string lost = files::other_reading(a.read); a.arrows && !forces)
-    throw DataError(a.files.front(), "", "a motion with forces",
-                    lost.empty() ? "none: mimicx plan writes motions with forces" : lost);
   picture::Layout layout;
   try {
     layout = picture::lay_out(motions, config);

@@ -166,7 +166,7 @@ void Motion::read(std::string bytes, const std::string& name) {
   if (file.empty() || file == "." || file == "..")
     throw std::invalid_argument("expected the name of a file, found '" + name + "'");
   motion::Clip clip = import::motion_from(bytes, file, config_.run.read);
-  if (!files::other_reading(config_.run.read).empty()) files::remove_recorded(clip);
+  if (!files::other_reading(clip, config_.run.read).empty()) files::remove_recorded(clip);
   Npz archive = motion::to_npz(clip);
   archive_ = std::move(archive);
   name_ = file;
@@ -244,7 +244,7 @@ std::string Motion::written(const std::string& suffix) {
   const import::ReadConfig read = entry_ ? import::ReadConfig() : config_.run.read;
   motion::Clip clip = import::motion_from(bytes_, name_, read);
   files::ExchangeConfig config;
-  if (const std::string lost = files::other_reading(read); !lost.empty() && files::remove_recorded(clip))
+  if (const std::string lost = files::other_reading(clip, read); !lost.empty() && files::remove_recorded(clip))
     config.forces_lost = lost;
   if (files::is_exchanged(file))
     files::write_exchange(file, clip, name_, config);

@@ -86,10 +86,9 @@ bool remove_recorded(motion::Clip& clip) {
          }) > 0;
 }
 
-std::string other_reading(const import::ReadConfig& read) {
-  const std::string options = read.text();
-  return options.empty() ? ""
-                         : "one that is read with other options than it was simulated with (" + options + ")";
+std::string other_reading(const motion::Clip& clip, const import::ReadConfig& read) {
+  if (clip.as_recorded) return "";
+  return "one that is read with other options than it was simulated with (" + read.text() + ")";
 }
 
 }  // namespace mimicx::files

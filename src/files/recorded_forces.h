@@ -41,8 +41,8 @@ Members simulation_members(const physics::SimulationConfig& simulation, double m
 /// Removes what a simulation recorded beside the poses: joint positions and velocities, forces, weight. They
 /// do not belong to a motion of another body, another frame rate or other axes. @return whether there was any
 bool remove_recorded(motion::Clip& clip);
-/// Why recorded forces do not belong to a motion that was read so; empty with the default reading.
-std::string other_reading(const import::ReadConfig& read);
+/// Why its recorded forces do not belong to a motion that was read so; empty where they do.
+std::string other_reading(const motion::Clip& clip, const import::ReadConfig& read);
 
 /// Length of an arrow per force that it shows.
 inline constexpr double kMetresPerNewton = 0.001;

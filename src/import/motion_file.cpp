@@ -7,6 +7,7 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -430,6 +431,11 @@ ReadConfig settings_for(motion::Clip& clip, ReadConfig config) {
   return config;
 }
 
+/// What the numbers belong to that a simulation records beside a motion.
+auto recorded_with(const motion::Clip& clip) {
+  return std::tuple(clip.fps, clip.rotations, clip.trans, clip.betas, clip.rest_joints, clip.scene);
+}
+
 }  // namespace
 
 std::string ReadConfig::text() const {
@@ -505,6 +511,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   motion::Clip clip = read_any(bytes, path, asked);
   const ReadConfig config = settings_for(clip, asked);
   repair_angles(path.string(), clip);
+  const auto recorded = recorded_with(clip);
   const MotionFormat format = recognise(bytes);
   const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));
   const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic ||
@@ -524,6 +531,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_scene(config, believed, clip);
   settle_floor(config, believed, clip);
+  clip.as_recorded = asked.text().empty() || recorded_with(clip) == recorded;
   require_near(path, clip);
   if (clip.frames() > 0) settle_place(clip);
   if (!believed) remove_t_pose(clip);

@@ -54,7 +54,8 @@ struct Clip {
   std::optional<RestJoints> rest_joints;
   Scene scene;                        ///< the ground, in the world of the motion
   Vector3d place = Vector3d::Zero();  ///< m, by which reading moved everything to the origin
-  bool on_floor = false;  ///< the user gave the floor as z = 0: preparation adds no constant height
+  bool on_floor = false;    ///< the user gave the floor as z = 0: preparation adds no constant height
+  bool as_recorded = true;  ///< the user's settings of reading changed nothing to which its forces belong
 
   int frames() const { return rotations.count(); }
   /// Adds a decision that a summary does not leave out.

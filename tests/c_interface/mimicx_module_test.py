@@ -152,6 +152,9 @@ class Cleaning(unittest.TestCase):
             self.assertNotIn(b"torque", heavier.bytes(".csv").split(b"\n")[0])
             with self.assertRaisesRegex(mimicx.Error, "mass=100"):
                 heavier.bytes(".mot")
+            other_rate = mimicx.load(file, fps=60)  # the motion keeps its own
+            np.testing.assert_array_equal(other_rate["joint_torques"], as_it_is["joint_torques"])
+            self.assertEqual(other_rate.bytes(".mot"), as_it_is.bytes(".mot"))
 
     def test_poses_are_audited(self):
         found = mimicx.audit(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], body_model="mimicx")

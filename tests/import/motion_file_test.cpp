@@ -364,6 +364,26 @@ TEST(ReadMotion, SimulatedMotionsKeepRateAxesUnitAndFloor) {
   EXPECT_EQ(written_and_read(clip, config).fps, 120.0) << "without forces the settings count";
 }
 
+TEST(ReadMotion, ForcesStayWithAMotionThatSettingsOfReadingLeaveAsItWas) {
+  motion::Clip clip = test::raised(test::standing_clip(12, test::standing_height()));
+  const std::vector<double> none(12 * kBodies * 6, 0.0);
+  clip.passthrough.emplace_back("ground_wrenches", NpyArray::from_double({12, kBodies, 6}, none.data()));
+  clip.trans[0].x() += 300.0;  // read 300 m from there
+  EXPECT_TRUE(written_and_read(clip).as_recorded);
+  ReadConfig same;
+  same.fps = 60.0, same.up = 'y', same.scale = 0.01, same.floor = 0.5, same.person = 1;
+  same.standard_body = true;
+  same.scene = test::wide_plate();
+  EXPECT_TRUE(written_and_read(clip, same).as_recorded);
+  ReadConfig heavier, on_the_floor;
+  heavier.mass = 120.0;
+  on_the_floor.scene.emplace();
+  EXPECT_FALSE(written_and_read(clip, heavier).as_recorded);
+  EXPECT_FALSE(written_and_read(clip, on_the_floor).as_recorded);
+  clip.betas[0] = 1.0;
+  EXPECT_FALSE(written_and_read(clip, same).as_recorded) << "another body than the standard one";
+}
+
 TEST(WriteMotion, EveryArchiveHasTheJointsOfItsBody) {
   const motion::Clip clip = foreign("wave");
   write_motion(scratch("joints.npz"), clip);

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "core/file.h"
+#include "files/pushed_clip.h"
 #include "import/motion_file.h"
 #include "program/cli.h"
 
@@ -44,6 +45,27 @@ TEST_F(CliRender, TellsWhichLabelsHaveLettersThatTheFontLacks) {
       says(lacking, "render: the font lacks letters of 歩く, drawn as ?; --labels gives other names\n"))
       << lacking.text;
   EXPECT_FALSE(says(render(two + " --labels walks,walk"), "the font lacks"));
+}
+
+TEST_F(CliRender, ArrowsAreOfMotionsThatOptionsOfReadingLeaveAsTheyWere) {
+  motion::write_clip(path("pushed.npz"), files::pushed_clip(12));
+  const auto picture = [&](const std::string& options) {
+    const Call call = render(path("pushed.npz") + " --kind still --at 0.2 --out " + path("p.png") + options);
+    EXPECT_EQ(call.status, 0) << call.text;
+    return read_file(path("p.png"));
+  };
+  const std::string arrows = picture(" --arrows");
+  EXPECT_NE(picture(""), arrows);
+  for (const std::string option : {" --scale 0.01", " --up y", " --fps 60"})
+    EXPECT_EQ(picture(" --arrows" + option), arrows) << option;
+  const Call beside = render(path("b.bvh") + " " + path("pushed.npz") + " --frames 2 --arrows --up y --out " +
+                             path("both.png"));
+  EXPECT_EQ(beside.status, 0) << beside.text;
+  const Call heavier = render(path("b.bvh") + " " + path("pushed.npz") + " --arrows --mass 90 --out " +
+                              path("heavier.png"));
+  EXPECT_TRUE(heavier.status == 1 && says(heavier, "pushed.npz: expected a motion with forces, found one that")
+              && says(heavier, "mass=90"))
+      << heavier.text;
 }
 
 TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
