@@ -89,8 +89,8 @@ int fit(const FitArguments& a) {
       const motion::Clip clip = import::read_motion(file, a.read);
       run::tell_decisions(file, clip, std::cerr);
       make_folder(outputs[i].parent_path());
-      motion::write_clip(outputs[i],
-                         (a.poses ? fit::fit_poses : fit::fit_keypoints)(clip, a.config, &report));
+      const motion::Clip fitted = (a.poses ? fit::fit_poses : fit::fit_keypoints)(clip, a.config, &report);
+      motion::write_clip(outputs[i], fitted, motion::world_members(fitted));
       const std::string name = outputs[i].lexically_relative(a.out).replace_extension().generic_string();
       print(table_file(a.json), name, report);
       rows.push_back(fit_json(name, report));

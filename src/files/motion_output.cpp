@@ -78,7 +78,7 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
 void write_input(const std::filesystem::path& path, const motion::Clip& input) {
   motion::Clip used = input;
   used.passthrough.clear();
-  motion::write_clip(path, used);
+  motion::write_clip(path, used, motion::world_members(used));
 }
 
 void write_reference(const std::filesystem::path& path, const motion::Clip& input,

@@ -405,11 +405,9 @@ bool is_believed(const ReadConfig& o, motion::Clip& clip) {
   return true;
 }
 
-/// Of another body than ours the archive says that its world is ours: readers would detect it anew.
 void write_archive(const std::filesystem::path& path, const motion::Clip& clip) {
-  std::vector<std::pair<std::string, NpyArray>> members = {{"joints", motion::joint_positions_member(clip)}};
-  if (clip.body_model != "mimicx")
-    members.emplace_back(motion::kWorldMember, NpyArray::scalar_text(motion::kOurWorld));
+  std::vector<std::pair<std::string, NpyArray>> members = motion::world_members(clip);
+  members.insert(members.begin(), {"joints", motion::joint_positions_member(clip)});
   motion::write_clip(path, clip, members);
 }
 

@@ -544,6 +544,11 @@ bool is_in_our_world(const Clip& clip) {
   return world && world->text == std::vector<std::string>{kOurWorld};
 }
 
+std::vector<std::pair<std::string, NpyArray>> world_members(const Clip& clip) {
+  if (clip.body_model == "mimicx") return {};
+  return {{kWorldMember, NpyArray::scalar_text(kOurWorld)}};
+}
+
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra) {
   Npz npz;
   const std::size_t frames = clip.rotations.size();

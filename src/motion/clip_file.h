@@ -49,6 +49,8 @@ inline constexpr const char* kWorldMember = "mimicx_world";
 inline constexpr const char* kOurWorld = "z up, m";
 /// Whether the archive that a clip was read from says so.
 bool is_in_our_world(const Clip& clip);
+/// That member, for a clip of another body than ours, whose world readers would detect anew; else none.
+std::vector<std::pair<std::string, NpyArray>> world_members(const Clip& clip);
 
 /// The members of our own motion file: the standard ones, keypoints and camera,
 /// passed-through members, and `extra`, which replaces members of the same name. `poses_rest` and

@@ -197,6 +197,16 @@ TEST_F(Cli, ConvertLeavesForcesOutThatNoLongerBelongToTheMotion) {
   }
 }
 
+TEST_F(Cli, FitWritesTheAxesThatWereAskedForSoThatTheyAreBelieved) {
+  motion::write_clip(path("a.npz"), foreign_clip(30.0));  // with z up it lies
+  import::ReadConfig z_up;
+  z_up.up = 'z';
+  const motion::Clip lying = import::read_motion(path("a.npz"), z_up);
+  ASSERT_NE(import::read_motion(path("a.npz")).rotations, lying.rotations);
+  ASSERT_EQ(mimicx("fit " + path("a.npz") + " --up z --out " + path("fitted")).status, 0);
+  EXPECT_EQ(import::read_motion(path("fitted/a.npz")).rotations, lying.rotations);
+}
+
 TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndPrintsDecisions) {
   motion::write_clip(path("a.npz"), foreign_clip(60.0));
   const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");
