@@ -250,7 +250,6 @@ void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
             " onto it";
   }
   clip.decide(said);
-  if (const std::string doubt = scene_doubt(clip); !doubt.empty()) clip.warnings.push_back(doubt);
 }
 
 /// The simulation has single precision, which resolves 2 mm at 20 km. A motion that begins over 50 m from the
@@ -529,6 +528,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_scene(config, believed, clip);
   settle_floor(config, believed, clip);
+  if (const std::string doubt = scene_doubt(clip); !doubt.empty()) clip.warnings.push_back(doubt);
   clip.as_recorded = asked.text().empty() || recorded_with(clip) == recorded;
   require_near(path, clip);
   if (clip.frames() > 0) settle_place(clip);

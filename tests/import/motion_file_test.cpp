@@ -59,6 +59,23 @@ TEST(ReadMotion, PutsAForeignMotionOntoItsScene) {
   EXPECT_NEAR(detect_floor(read_motion(path, config)), 0.0, 0.05);
 }
 
+TEST(ReadMotion, DoubtsASceneWhereTheFloorThatWasAskedForPutsTheMotion) {
+  ReadConfig config;
+  config.floor = 3.0;
+  config.scene = test::wide_plate();
+  const auto doubts = [&](double height) {
+    motion::Clip clip = test::raised(test::synthetic_clip("walk", 3, 30));
+    for (Vector3d& trans : clip.trans) trans.z() += height;
+    motion::write_clip(scratch("high.npz"), clip);
+    const std::vector<std::string> warnings = read_motion(scratch("high.npz"), config).warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& line) {
+      return line.starts_with("nothing comes near the scene");
+    });
+  };
+  EXPECT_FALSE(doubts(3.0)) << "it stands on the plate once the floor is at 0";
+  EXPECT_TRUE(doubts(0.0)) << "it stands on the plate only before that";
+}
+
 /// A synthetic motion as a foreign file: body model smplx, so that the reader trusts nothing in it.
 motion::Clip foreign(const std::string& kind) {
   synth::SynthConfig config;
