@@ -142,9 +142,8 @@ void Motion::set(const std::string& name, const std::string& value) {
   } else if (name == "height") {
     read.height = positive_in(name, value);
   } else if (name == "scene") {
+    read.scene = value == "auto" ? std::nullopt : std::optional(files::scene_from(value, name));
     read.scene_from_motion = value == "auto";
-    read.scene.reset();
-    if (!read.scene_from_motion) read.scene = files::scene_from(value, name);
   } else if (name == "root") {
     read.root = value;
   } else if (name == "person") {
@@ -171,6 +170,7 @@ void Motion::read(std::string bytes, const std::string& name) {
   archive_ = std::move(archive);
   name_ = file;
   bytes_ = std::move(bytes);
+  read_ = config_.run.read;
   put_.reset();
   entry_.reset();
 }
@@ -207,6 +207,7 @@ bool Motion::clean(const Watcher& watch) {
   clean_suffix_ = clean_bytes.empty() ? "" : suffix;
   clean_bytes_ = clean_bytes;
   bytes_ = bytes;
+  read_ = {};
   name_ = entry.name + ".npz";
   entry_ = std::move(entry);
   return true;
@@ -228,8 +229,7 @@ std::string Motion::record() const { return entry_ ? record::to_json(*entry_).du
 
 std::string Motion::audit() {
   load();
-  return audit::audit_json(
-      {{name_, audit::audit_bytes(bytes_, name_, false, entry_ ? import::ReadConfig() : config_.run.read)}});
+  return audit::audit_json({{name_, audit::audit_bytes(bytes_, name_, false, read_)}});
 }
 
 std::string Motion::written(const std::string& suffix) {
@@ -241,10 +241,9 @@ std::string Motion::written(const std::string& suffix) {
                                 "'");
   const WorkingFolder folder;
   const std::filesystem::path file = folder / (std::filesystem::path(name_).stem().string() + suffix);
-  const import::ReadConfig read = entry_ ? import::ReadConfig() : config_.run.read;
-  motion::Clip clip = import::motion_from(bytes_, name_, read);
+  motion::Clip clip = import::motion_from(bytes_, name_, read_);
   files::ExchangeConfig config;
-  if (const std::string lost = files::other_reading(clip, read); !lost.empty() && files::remove_recorded(clip))
+  if (const std::string lost = files::other_reading(clip, read_); !lost.empty() && files::remove_recorded(clip))
     config.forces_lost = lost;
   if (files::is_exchanged(file))
     files::write_exchange(file, clip, name_, config);

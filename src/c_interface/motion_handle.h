@@ -47,6 +47,7 @@ class Motion {
 
   plan::PlanMotionsConfig config_;
   std::string name_, bytes_;    ///< the motion as a file
+  import::ReadConfig read_;     ///< how it is read
   std::optional<Npz> put_;      ///< being given, member by member
   std::optional<Npz> archive_;  ///< its arrays
   std::optional<record::SequenceEntry> entry_;

@@ -63,6 +63,34 @@ static void put_beginning(mimicx_motion* from, mimicx_motion* to) {
   CHECK(mimicx_motion_put_text(to, "body_model", &model, 1) == MIMICX_OK, "%s", mimicx_motion_error(to));
 }
 
+/* A setting that fails leaves the earlier one; one that is made after reading is of the next motion. */
+static void check_later_settings(mimicx_motion* motion, const Bytes* file) {
+  mimicx_array array;
+  const char* box = "{\"plates\": [{\"centre\": [0, 9], \"half_extents\": [0.5, 0.5], \"height\": 0.3}]}";
+  CHECK(mimicx_motion_set(motion, "scene", box) == MIMICX_OK, "%s", mimicx_motion_error(motion));
+  CHECK(mimicx_motion_set(motion, "scene", "{\"plates\": [{}]}") == MIMICX_FAILED, "a plate without a place");
+  CHECK(mimicx_motion_read(motion, file->data, file->size, "walk.npz") == MIMICX_OK, "%s",
+        mimicx_motion_error(motion));
+  CHECK(mimicx_motion_array(motion, "scene_plates", &array) == MIMICX_OK && array.shape[0] == 1,
+        "the box is gone");
+  const void* bytes;
+  size_t size = 0;
+  CHECK(mimicx_motion_write(motion, ".bvh", &bytes, &size) == MIMICX_OK, "%s", mimicx_motion_error(motion));
+  const Bytes before = {malloc(size), size};
+  memcpy(before.data, bytes, size);
+  const char* audit = mimicx_motion_audit(motion);
+  char* audit_before = strdup(audit != NULL ? audit : "");
+  CHECK(audit_before[0] != '\0', "%s", mimicx_motion_error(motion));
+  CHECK(mimicx_motion_set(motion, "scale", "0.5") == MIMICX_OK, "%s", mimicx_motion_error(motion));
+  CHECK(mimicx_motion_write(motion, ".bvh", &bytes, &size) == MIMICX_OK && size == before.size &&
+            memcmp(bytes, before.data, size) == 0,
+        "the motion was read again with a later setting");
+  audit = mimicx_motion_audit(motion);
+  CHECK(audit != NULL && strcmp(audit, audit_before) == 0, "it was audited with a later setting");
+  free(before.data);
+  free(audit_before);
+}
+
 static void check_reading(const Bytes* file) {
   mimicx_motion* motion = mimicx_motion_new();
   mimicx_array array;
@@ -100,6 +128,7 @@ static void check_reading(const Bytes* file) {
   CHECK(mimicx_motion_set(motion, "fps", "0") == MIMICX_FAILED, "no frame rate");
   CHECK(mimicx_motion_set(motion, "scene", "{\"plates\": [{}]}") == MIMICX_FAILED, "a plate without a place");
   CHECK(strstr(mimicx_motion_error(motion), "plate 1") != NULL, "%s", mimicx_motion_error(motion));
+  check_later_settings(motion, file);
   mimicx_array no_array = {NULL, "<c8", 1, {1, 0, 0, 0}};
   CHECK(mimicx_motion_put(motion, "poses", &no_array) == MIMICX_FAILED, "no such type");
   mimicx_array huge = {&no_array, "<f8", 2, {INT64_C(1) << 40, INT64_C(1) << 40, 0, 0}};
