@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "files/inputs.h"
 #include "record/json.h"
 #include "record/outputs.h"
+#include "record/run_folder.h"
 #include "record/utf8_names.h"
 #include "shared_arguments.h"
 #include "standard_streams.h"
@@ -49,11 +51,29 @@ int replay(const CertifyArguments& a) {
   return all_good ? kAllGood : kSomeFailed;
 }
 
+/// Leaves out the parts of motions (RunFolder::part) that lie in folders, and says so.
+void leave_out_parts(const CertifyArguments& a, std::vector<files::MotionInput>& inputs) {
+  const auto is_given = [&](const std::string& path) {
+    return std::any_of(a.inputs.begin(), a.inputs.end(), [&](const std::string& typed) {
+      std::error_code none;
+      return std::filesystem::equivalent(typed, path, none);
+    });
+  };
+  const auto count = std::erase_if(inputs, [&](const files::MotionInput& input) {
+    return record::RunFolder::is_part_name(input.name) && audit::steps_of_motion(input.path).empty() &&
+           !is_given(input.path);
+  });
+  if (count > 0)
+    std::cerr << "certify: " << count << (count == 1 ? " part" : " parts")
+              << " of motions left out (NAME.partK.npz): parts have no physics steps\n";
+}
+
 int certify(const CertifyArguments& a) {
   if (a.replay) return replay(a);
   if (!a.json.empty()) throw UsageError("certify: --json has the results of --replay alone");
   if (a.out.empty()) throw UsageError("certify: --out is needed: the folder of the certificates");
-  const std::vector<files::MotionInput> inputs = files::find_motions(a.inputs, {}, &std::cerr);
+  std::vector<files::MotionInput> inputs = files::find_motions(a.inputs, {}, &std::cerr);
+  leave_out_parts(a, inputs);
   const auto certificate_path = [&](const files::MotionInput& input) {
     return a.out / (input.name + ".cert");
   };

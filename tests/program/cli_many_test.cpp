@@ -87,6 +87,22 @@ TEST_F(CliMany, CertificatesKeepTheFolderTreeOfTheRun) {
     EXPECT_TRUE(std::filesystem::exists(path("certificates/" + std::string(name) + ".cert"))) << name;
 }
 
+TEST_F(CliMany, PartsOfMotionsGetNoCertificates) {
+  std::filesystem::rename(path("in/CMU/02/a.npz"), path("in/CMU/02/b.part2.npz"));  // a motion of this name
+  ASSERT_EQ(mimicx("plan " + path("in/CMU") + " --no-fit --substeps --out " + path("run")).status, 0);
+  std::filesystem::copy_file(path("run/motions/01/a.npz"), path("run/motions/01/a.part1.npz"));
+  const Call call = mimicx("certify " + path("run/motions") + " --out " + path("certificates"));
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_EQ(lines_of(call.text),
+            std::vector<std::string>{
+                "certify: 1 part of motions left out (NAME.partK.npz): parts have no physics steps"});
+  for (const char* name : {"01/a.cert", "02/b.part2.cert"})
+    EXPECT_TRUE(std::filesystem::exists(path("certificates/" + std::string(name)))) << name;
+  EXPECT_FALSE(std::filesystem::exists(path("certificates/01/a.part1.cert")));
+  const std::string part = path("run/motions/01/a.part1.npz");
+  EXPECT_EQ(mimicx("certify " + part + " --out " + path("certificates")).status, 1) << "it was asked for";
+}
+
 TEST_F(CliMany, KilledRunContinuesToTheSameBytes) {
   const std::string command = "plan " + path("in") + " --threads 1 --out ";
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);

@@ -226,18 +226,6 @@ double frame_gap(const motion::Clip& clip, const SubstepMotion& motion, int stri
   return gap;
 }
 
-/// RUN/substeps/NAME.npz of RUN/motions/NAME.npz, where NAME may have folders ("walks/walk_1").
-std::filesystem::path steps_of_motion(const std::filesystem::path& path) {
-  const std::filesystem::path whole = std::filesystem::absolute(path);
-  for (auto motions = whole.parent_path(); motions.has_relative_path(); motions = motions.parent_path()) {
-    const auto steps = motions.parent_path() / "substeps" / whole.lexically_relative(motions);
-    if (std::filesystem::exists(steps)) return steps;
-  }
-  const auto wanted = path.parent_path().parent_path() / "substeps" / path.filename();
-  throw DataError(wanted.string(), "", "the physics steps of the motion (plan or adapt with --substeps)",
-                  "no file");
-}
-
 }  // namespace
 
 std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& about) {
@@ -276,9 +264,23 @@ std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& a
   return bytes + sha256(bytes);
 }
 
+std::filesystem::path steps_of_motion(const std::filesystem::path& path) {
+  const std::filesystem::path whole = std::filesystem::absolute(path);
+  for (auto motions = whole.parent_path(); motions.has_relative_path(); motions = motions.parent_path()) {
+    const auto steps = motions.parent_path() / "substeps" / whole.lexically_relative(motions);
+    if (std::filesystem::exists(steps)) return steps;
+  }
+  return {};
+}
+
 std::string certify_file(const std::filesystem::path& path) {
   const std::string name = path.stem().string(), bytes = read_file(path);
   const std::filesystem::path steps_path = steps_of_motion(path);
+  if (steps_path.empty()) {
+    const auto wanted = path.parent_path().parent_path() / "substeps" / path.filename();
+    throw DataError(wanted.string(), "", "the physics steps of the motion (plan or adapt with --substeps)",
+                    "no file");
+  }
   const Npz npz = parse_npz(bytes, path.string()), steps = read_npz(steps_path);
   const SubstepMotion motion = read_substeps(steps);
   const motion::Clip clip = motion::clip_from(npz, name);

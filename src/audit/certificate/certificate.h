@@ -23,6 +23,10 @@ struct CertifiedMotion {
 /// @throws std::invalid_argument for settings of the simulator other than the page's
 std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& about);
 
+/// RUN/substeps/NAME.npz of RUN/motions/NAME.npz, where NAME may have folders ("walks/walk_1"); empty where
+/// there is none.
+std::filesystem::path steps_of_motion(const std::filesystem::path& motion);
+
 /// Reads motions/NAME.npz and substeps/NAME.npz of a run and makes their certificate.
 /// @throws DataError if a file is missing, the frames are not the states, or the scenes differ
 std::string certify_file(const std::filesystem::path& motion);
