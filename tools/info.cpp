@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 
 #include "commands.h"
@@ -77,38 +78,40 @@ void describe_preparation(std::FILE* out, const run::PreparedMotion& motion,
       std::fprintf(out, "  note       %s\n", note.c_str());
 }
 
-std::string info_json(const std::string& file, const motion::Clip& clip, const run::PreparedMotion& motion) {
-  using record::Json, record::number;
+record::Json preparation_json(const run::PreparedMotion& motion) {
+  using record::number;
   const auto value = [&](const char* name) { return number(value_of(motion.preparation_values, name)); };
+  return {{"frames", motion.reference.size()},
+          {"fps", number(motion.reference.fps)},
+          {"floor_shift_mm", value("floor_shift_mm")},
+          {"max_floor_shift_mm", value("max_floor_shift_mm")},
+          {"hinge_residual_mean_mm", value("hinge_residual_mean_mm")},
+          {"hinge_residual_max_mm", value("hinge_residual_max_mm")},
+          {"change_mean_mm", value("change_mean_mm")},
+          {"change_max_mm", value("change_max_mm")},
+          {"foot_level_deg", value("foot_level_deg")},
+          {"flagged_frames", static_cast<int>(value_of(motion.preparation_values, "flagged_frames"))},
+          {"notes", motion.notes}};
+}
+
+record::Json clip_json(const std::string& file, const motion::Clip& clip) {
+  using record::Json, record::number;
   Json keypoints(nullptr), passed_on = Json::array();
   if (clip.keypoints)
     keypoints = {{"count", clip.keypoints->names.size()},
                  {"usable", usable_among(clip.keypoints->names)},
                  {"moving_camera", clip.keypoints->extrinsics.size() > 1}};
   for (const auto& [key, array] : clip.passthrough) passed_on.push_back(name_of_member(key));
-  return record::document(
-      {{"file", record::to_utf8(file)},
-       {"frames", clip.frames()},
-       {"fps", number(clip.fps)},
-       {"body_model", clip.body_model},
-       {"gender", clip.gender},
-       {"betas", clip.betas},
-       {"keypoints", keypoints},
-       {"passed_on", passed_on},
-       {"decisions", clip.decisions},
-       {"warnings", clip.warnings},
-       {"prepared",
-        {{"frames", motion.reference.size()},
-         {"fps", number(motion.reference.fps)},
-         {"floor_shift_mm", value("floor_shift_mm")},
-         {"max_floor_shift_mm", value("max_floor_shift_mm")},
-         {"hinge_residual_mean_mm", value("hinge_residual_mean_mm")},
-         {"hinge_residual_max_mm", value("hinge_residual_max_mm")},
-         {"change_mean_mm", value("change_mean_mm")},
-         {"change_max_mm", value("change_max_mm")},
-         {"foot_level_deg", value("foot_level_deg")},
-         {"flagged_frames", static_cast<int>(value_of(motion.preparation_values, "flagged_frames"))},
-         {"notes", motion.notes}}}});
+  return {{"file", record::to_utf8(file)},
+          {"frames", clip.frames()},
+          {"fps", number(clip.fps)},
+          {"body_model", clip.body_model},
+          {"gender", clip.gender},
+          {"betas", clip.betas},
+          {"keypoints", keypoints},
+          {"passed_on", passed_on},
+          {"decisions", clip.decisions},
+          {"warnings", clip.warnings}};
 }
 
 int info(const InfoArguments& a) {
@@ -118,10 +121,15 @@ int info(const InfoArguments& a) {
   const motion::Clip clip = import::read_motion(a.file, a.read);
   describe_file(out, clip);
   for (const auto& warning : clip.warnings) std::fprintf(out, "warning      %s\n", warning.c_str());
-  if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");
-  const run::PreparedMotion prepared = run::prepare_motion(clip, a.file, a.read, {.fit = true});
-  describe_preparation(out, prepared, clip.warnings);
-  if (!a.json.empty()) write_json(a.json, info_json(a.file.string(), clip, prepared));
+  record::Json json = clip_json(a.file.string(), clip);
+  if (clip.frames() < 2) {
+    std::cerr << a.file.string() << ": expected at least 2 frames to prepare it, found 1\n";
+  } else {
+    const run::PreparedMotion prepared = run::prepare_motion(clip, a.file, a.read, {.fit = true});
+    describe_preparation(out, prepared, clip.warnings);
+    json["prepared"] = preparation_json(prepared);
+  }
+  if (!a.json.empty()) write_json(a.json, record::document(json));
   return kAllGood;
 }
 

@@ -70,18 +70,21 @@ TEST_F(Cli, AMissingFileLeavesNoFolderBehind) {
   EXPECT_FALSE(std::filesystem::exists(path("nothere.mimicx")));
 }
 
-TEST_F(Cli, InfoReportsAMotionOfOneFrameAsTooShort) {
+TEST_F(Cli, InfoTellsOfAMotionOfOneFrameAllButItsPreparation) {
   motion::Clip clip = motion::standing_clip(1);
   clip.keypoints.emplace();
   clip.keypoints->names = {"nose", "left_hip", "right_hip"};
   clip.keypoints->uvc.assign(1, std::vector<Vector3d>(3, Vector3d::Ones()));
   clip.keypoints->extrinsics = {Eigen::Matrix4d::Identity()};
   motion::write_clip(path("one.npz"), clip);
-  const Call call = mimicx("info " + path("one.npz"));
-  EXPECT_EQ(call.status, 1);
+  const Call call = mimicx("info " + path("one.npz") + " --json " + path("one.json"));
+  EXPECT_EQ(call.status, 0);
   EXPECT_TRUE(says(call, "3 per frame, 2 of them with a place on the body, static camera")) << call.text;
   EXPECT_TRUE(says(call, path("one.npz") + ": expected at least 2 frames to prepare it, found 1"))
       << call.text;
+  const record::Json told = record::Json::parse(read_file(path("one.json")));
+  EXPECT_EQ(told.at("frames").get<int>(), 1);
+  EXPECT_FALSE(told.contains("prepared"));
 }
 
 TEST_F(Cli, ConvertKeepsTheMotion) {
