@@ -38,12 +38,15 @@ Table fit_words() {
   return {
       {"residual_before_percent",
        {"distance from the keypoints before", "%",
-        "mean distance of the projected joints from their detections, in parts of the person's height"}},
-      {"residual_after_percent", {"distance from the keypoints after", "%", "the same after the fit"}},
+        "of the projected joints from their detections, root mean square weighted by confidence, in parts of "
+        "the person's height"}},
+      {"residual_after_percent",
+       {"distance from the keypoints after", "%",
+        "the same after the fit, without the keypoints' constant offsets"}},
       {"iterations", {"steps of the fit", "", ""}},
       {"focal_scale", {"focal length, times the file's", "", "found by the fit"}},
       {"tilt_deg", {"camera tilted by", "°", "found by the fit"}},
-      {"shape_change", {"change of the body's shape", "", "norm of the change of β"}},
+      {"shape_change", {"change of the body's shape", "", "largest change of an entry of β"}},
       {"keypoint_sigma_percent", {"noise of the keypoints", "%", "in parts of the person's height"}},
       {"keypoint_sigma_max_percent", {"noise of the noisiest keypoint", "%", ""}},
       {"confidence_power", {"how well confidences predict the noise", "", "0: not at all; 1: fully"}},
@@ -62,7 +65,7 @@ Table general_words() {
 
 Table preparation_words() {
   return {
-      {"floor_shift_mm", {"moved up or down by, on average", "mm", "so that it stands on the floor"}},
+      {"floor_shift_mm", {"moved up or down by, all frames alike", "mm", "so that it stands on the floor"}},
       {"max_floor_shift_mm", {"moved up or down by, at most", "mm", ""}},
       {"hinge_residual_mean_mm", {"moved by knees and elbows as hinges, on average", "mm", ""}},
       {"hinge_residual_max_mm", {"moved by knees and elbows as hinges, at most", "mm", ""}},
@@ -148,7 +151,7 @@ Table feasibility_words() {
       {"accel_max_m_s2", {"the same by the body's mass, at most", "m/s²", ""}},
       {"moment_mean_Nm", {"external moment needed, on average", "N·m", ""}},
       {"moment_max_Nm", {"external moment needed, at most", "N·m", ""}},
-      {"worst_frame", {"the force is largest at frame", "", ""}},
+      {"worst_frame", {"force and moment together are largest at frame", "", ""}},
       {"infeasible_share", {"share of infeasible frames", "", ""}},
       {"hovers_share", {"share of frames that hover", "", "without contact, and without falling"}},
       {"pulled_share", {"share of frames that are pulled down", "", ""}},
