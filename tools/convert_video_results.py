@@ -13,7 +13,8 @@ RESULTS, recognised by what is in it (docs/formats.md, "Results of video estimat
 
 Every person gets a file, and every piece of a person's track that has no gap: OUT.npz where there is but one, else
 OUT_person2.npz or OUT_person2_from310.npz (frame of the video). All people of a result are in one world: same origin,
-same axes, same floor. Pieces shorter than --shortest frames are left out. A file that is there is never overwritten.
+same axes, same floor. Of several people or pieces those shorter than --shortest frames are left out. A file that is
+there is never overwritten.
 
 Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in a pickle. GVHMR, GEM and WHAM tell no
 camera, but where the motion is in the world (y up) and where in front of the camera. What takes one to the other is the
