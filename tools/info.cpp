@@ -102,15 +102,9 @@ record::Json clip_json(const std::string& file, const motion::Clip& clip) {
                  {"usable", usable_among(clip.keypoints->names)},
                  {"moving_camera", clip.keypoints->extrinsics.size() > 1}};
   for (const auto& [key, array] : clip.passthrough) passed_on.push_back(name_of_member(key));
-  return {{"file", record::to_utf8(file)},
-          {"frames", clip.frames()},
-          {"fps", number(clip.fps)},
-          {"body_model", clip.body_model},
-          {"gender", clip.gender},
-          {"betas", clip.betas},
-          {"keypoints", keypoints},
-          {"passed_on", passed_on},
-          {"decisions", clip.decisions},
+  return {{"file", record::to_utf8(file)}, {"frames", clip.frames()}, {"fps", number(clip.fps)},
+          {"body_model", clip.body_model}, {"gender", clip.gender},   {"betas", clip.betas},
+          {"keypoints", keypoints},        {"passed_on", passed_on},  {"decisions", clip.decisions},
           {"warnings", clip.warnings}};
 }
 

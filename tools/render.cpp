@@ -102,7 +102,8 @@ List<picture::PosedMotion> motions_of(const RenderArguments& a) {
     const auto i = static_cast<std::size_t>(k);
     motions[k].label = a.labels.empty() ? name_of(a.files[i]) : a.labels[i];
   });
-  const bool forces = std::any_of(motions.begin(), motions.end(), [](const auto& p) { return !p.forces.empty(); });
+  const bool forces =
+      std::any_of(motions.begin(), motions.end(), [](const auto& p) { return !p.forces.empty(); });
   if (a.arrows && !forces) throw DataError(without, "", "a motion with forces", found);
   return motions;
 }

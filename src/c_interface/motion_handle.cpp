@@ -243,7 +243,8 @@ std::string Motion::written(const std::string& suffix) {
   const std::filesystem::path file = folder / (std::filesystem::path(name_).stem().string() + suffix);
   motion::Clip clip = import::motion_from(bytes_, name_, read_);
   files::ExchangeConfig config;
-  if (const std::string lost = files::other_reading(clip, read_); !lost.empty() && files::remove_recorded(clip))
+  if (const std::string lost = files::other_reading(clip, read_);
+      !lost.empty() && files::remove_recorded(clip))
     config.forces_lost = lost;
   if (files::is_exchanged(file))
     files::write_exchange(file, clip, name_, config);

@@ -191,7 +191,8 @@ TEST_F(Cli, ConvertLeavesForcesOutThatNoLongerBelongToTheMotion) {
     const Call call = mimicx("convert " + planned + " " + path("kept.npz") + " --force " + option);
     EXPECT_TRUE(call.status == 0 && !says(call, "without its forces")) << call.text;
     for (const char* name : {"ground_wrenches", "velocities", "joint_torques", "body_weight", "trans"})
-      EXPECT_EQ(read_npz(path("kept.npz")).at(name).bytes, read_npz(planned).at(name).bytes) << option << name;
+      EXPECT_EQ(read_npz(path("kept.npz")).at(name).bytes, read_npz(planned).at(name).bytes)
+          << option << name;
     EXPECT_EQ(mimicx("convert " + planned + " " + path("kept.mot") + " " + option).status, 0) << option;
   }
   for (const std::string option : {"--fps 60", "--up y", "--mass 90"}) {

@@ -61,10 +61,11 @@ TEST_F(CliRender, ArrowsAreOfMotionsThatOptionsOfReadingLeaveAsTheyWere) {
   const Call beside = render(path("b.bvh") + " " + path("pushed.npz") + " --frames 2 --arrows --up y --out " +
                              path("both.png"));
   EXPECT_EQ(beside.status, 0) << beside.text;
-  const Call heavier = render(path("b.bvh") + " " + path("pushed.npz") + " --arrows --mass 90 --out " +
-                              path("heavier.png"));
-  EXPECT_TRUE(heavier.status == 1 && says(heavier, "pushed.npz: expected a motion with forces, found one that")
-              && says(heavier, "mass=90"))
+  const Call heavier =
+      render(path("b.bvh") + " " + path("pushed.npz") + " --arrows --mass 90 --out " + path("heavier.png"));
+  EXPECT_TRUE(heavier.status == 1 &&
+              says(heavier, "pushed.npz: expected a motion with forces, found one that") &&
+              says(heavier, "mass=90"))
       << heavier.text;
 }
 
