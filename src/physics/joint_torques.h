@@ -107,8 +107,8 @@ template <class T>
     const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
     const T size_2 = dot(law, law);
     const MaskOf<T> over = (size_2 > limit * limit) & !d.saturated[i];
-    const T along = dot(law, d.tau[i]);
-    const MaskOf<T> against = (along < T(0.0)) & d.saturated[i] & !d.returned[i];
+    const MaskOf<T> opposes = dot(law, d.tau[i]) < T(0.0), saturated = d.saturated[i];
+    const MaskOf<T> against = opposes & saturated & !d.returned[i];
     const MaskOf<T> changes = over | against;
     if (!any(changes)) continue;
     again = again | changes;

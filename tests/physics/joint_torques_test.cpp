@@ -213,8 +213,7 @@ TEST(TorqueBound, SaturatedTorquesDoNotOpposeTheLaw) {
       const Data<P>& d = s->data;
       for (int i = 1; i < kBodies; ++i) {
         const Vec3<P> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
-        const P along = dot(law, d.tau[i]);
-        const MaskOf<P> opposes = d.saturated[i] & (along < P(0.0));
+        const MaskOf<P> reversed = dot(law, d.tau[i]) < P(0.0), opposes = reversed & d.saturated[i];
         returned += count(d.returned[i]);
         opposed += count(opposes & !d.returned[i]);
         opposed_again += count(opposes & d.returned[i]);
