@@ -508,7 +508,8 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   motion::Clip clip = read_any(bytes, path, asked);
   const ReadConfig config = settings_for(clip, asked);
   repair_angles(path.string(), clip);
-  const auto recorded = recorded_with(clip);
+  const bool may_change = !asked.text().empty();
+  const auto recorded = may_change ? std::optional(recorded_with(clip)) : std::nullopt;
   const MotionFormat format = recognise(bytes);
   const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));
   const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic ||
@@ -529,7 +530,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   settle_scene(config, believed, clip);
   settle_floor(config, believed, clip);
   if (const std::string doubt = scene_doubt(clip); !doubt.empty()) clip.warnings.push_back(doubt);
-  clip.as_recorded = asked.text().empty() || recorded_with(clip) == recorded;
+  clip.as_recorded = !may_change || recorded_with(clip) == *recorded;
   require_near(path, clip);
   if (clip.frames() > 0) settle_place(clip);
   if (!believed) remove_t_pose(clip);
