@@ -60,7 +60,7 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs,
                 const std::vector<std::string>& names) {
   audit::PoseFilesConfig config = a.config;
   config.frames = !a.frames_csv.empty();
-  config.needs.reach = a.reach_mm / 1000.0;
+  config.reach = a.reach_mm / 1000.0;
   std::optional<AtomicFile> csv, frames_csv;
   if (!a.csv.empty()) csv.emplace(a.csv).write(audit::poses_csv_head());
   if (config.frames) frames_csv.emplace(a.frames_csv).write(audit::pose_frames_csv_head());

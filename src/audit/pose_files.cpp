@@ -83,7 +83,8 @@ PoseFile audit_pose_file(const std::string& path, const PoseFilesConfig& config)
     const auto [poses, shift] = on_floor(character, clip);
     file.floor_shift = shift;
     const physics::SimulationConfig simulation = files::recorded_simulation(clip);
-    PoseNeedsConfig needs = config.needs;
+    PoseNeedsConfig needs;
+    needs.reach = config.reach;
     needs.friction = simulation.friction;
     needs.gravity = simulation.gravity;
     file.needs = needs_of_poses(character, poses, clip.fps, needs, clip.scene);

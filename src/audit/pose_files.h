@@ -20,8 +20,8 @@ namespace mimicx::audit {
 
 struct PoseFilesConfig {
   import::ReadConfig read;
-  PoseNeedsConfig needs;  ///< friction and gravity are those that a simulated motion records, else the usual
-  bool frames = false;    ///< keep a row per frame
+  double reach = PoseNeedsConfig().reach;  ///< as there; friction and gravity are those that the file records
+  bool frames = false;                     ///< keep a row per frame
   int threads = 1;
 };
 
