@@ -96,9 +96,7 @@ template <class T>
 /// its bound is saturated; a saturated joint whose law has turned against its torque returns to the law, once
 /// in a step. No other joint or lane changes, so that solving again gives the same bits in an unaffected
 /// lane.
-/// @return mask of the lanes that must be solved again; a joint changes at most three times, so a lane needs
-/// at
-///         most 63 repetitions
+/// @return mask of the lanes that must be solved again, at most 63 times: a joint changes three times at most
 template <class T>
 [[gnu::flatten]] MaskOf<T> correct_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
   MaskOf<T> again = T(0.0) > T(1.0);

@@ -34,12 +34,16 @@ TEST(FrechetDistance, OfScaledAndMovedRowsIsThatOfTheFormula) {
   EXPECT_NEAR(frechet_distance(b, a), frechet_distance(a, b), 1e-4);
 }
 
-TEST(Recogniser, KnowsTheLabelsOfMotionsThatItHasNotSeen) {
-  const auto test = toy_motions(4, 5, 2);
+Recogniser trained_on_toys() {
   RecogniserConfig config;
   config.steps = 300;
   config.noise = 0.1;
-  const Recogniser recogniser(toy_motions(4, 10, 1), 4, config, 1);
+  return {toy_motions(4, 10, 1), 4, config, 1};
+}
+
+TEST(Recogniser, KnowsTheLabelsOfMotionsThatItHasNotSeen) {
+  const auto test = toy_motions(4, 5, 2);
+  const Recogniser recogniser = trained_on_toys();
   const GenerationScores scores = recogniser.scores(test, test);
   EXPECT_NEAR(scores.precision[0], 1.0, 1e-12);
   EXPECT_NEAR(scores.precision[2], 1.0, 1e-12);
@@ -64,10 +68,7 @@ TEST(Recogniser, KnowsTheLabelsOfMotionsThatItHasNotSeen) {
 // Exact motions hardly move their wrists. Measured by that, half a degree would count as much as ten do.
 TEST(Recogniser, TinyErrorsOfNumbersThatAreConstantCountLittle) {
   const auto test = toy_motions(4, 5, 2);
-  RecogniserConfig config;
-  config.steps = 300;
-  config.noise = 0.1;
-  const Recogniser recogniser(toy_motions(4, 10, 1), 4, config, 1);
+  const Recogniser recogniser = trained_on_toys();
   const auto fid_with_wrists_turned_by = [&](double degrees) {
     auto turned = test;
     for (LabelledMotion& motion : turned)

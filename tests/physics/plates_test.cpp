@@ -133,13 +133,19 @@ TEST(Plates, FarPlateChangesNoBit) {
   });
 }
 
-TEST(Plates, BodiesDroppedOnABoxRestOnIt) {
+/// A pack of characters dropped onto a box of 0.4 m, of the seeds from `first` on.
+ScenePack dropped_on_a_box(std::uint64_t first) {
   ScenePack pack({{plate(0.0, 0.0, 2.5, 2.5, 0.4)}});
   for (int lane = 0; lane < kLanes; ++lane) {
-    Snapshot x = snapshot_of(ContactScene::kDrop, pack.character, static_cast<std::uint64_t>(lane));
+    Snapshot x = snapshot_of(ContactScene::kDrop, pack.character, first + static_cast<std::uint64_t>(lane));
     x.p_root.z() += 0.4;
     pack.start(lane, x);
   }
+  return pack;
+}
+
+TEST(Plates, BodiesDroppedOnABoxRestOnIt) {
+  ScenePack pack = dropped_on_a_box(0);
   pack.run(3.0);
   EXPECT_FALSE(pack.wrong);
   EXPECT_LT(pack.energy_ratio, 1.001);
@@ -154,12 +160,7 @@ TEST(Plates, BodiesDroppedOnABoxRestOnIt) {
 // foot was turned by its own torque, kept at its bound, or its inertia was lost beside the point's friction.
 TEST(Plates, BodiesDroppedOnABoxGainNoEnergy) {
   for (std::uint64_t first = 0; first < 400; first += kLanes) {
-    ScenePack pack({{plate(0.0, 0.0, 2.5, 2.5, 0.4)}});
-    for (int lane = 0; lane < kLanes; ++lane) {
-      Snapshot x = snapshot_of(ContactScene::kDrop, pack.character, first + static_cast<std::uint64_t>(lane));
-      x.p_root.z() += 0.4;
-      pack.start(lane, x);
-    }
+    ScenePack pack = dropped_on_a_box(first);
     pack.run(0.6);
     EXPECT_FALSE(pack.wrong) << first;
     EXPECT_LT(pack.energy_ratio, 1.001) << first;
