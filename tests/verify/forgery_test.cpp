@@ -512,7 +512,8 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
             file.size() < kPlates ? "not a certificate of version 6" : "size differs from that of its steps";
         break;
       case 1:
-        file[kHead + static_cast<std::size_t>(random.uniform() * (size - kHead))] ^= 1 << (k / 8 % 8);
+        file[kHead + static_cast<std::size_t>(random.uniform() * (size - kHead))] ^=
+            static_cast<char>(1 << (k / 8 % 8));
         wanted = "hash differs";
         break;
       case 2:
