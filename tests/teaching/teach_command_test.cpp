@@ -178,8 +178,7 @@ TEST_F(Teach, TeacherOnTheReferenceRepeatsThePlan) {
   const Teacher teacher = read_teacher(motions[1], {});
   std::size_t t = 0;
   const auto made = rl::tracking::roll_out(teacher.clip, {}, [&](int, const float*, float* action) {
-    std::copy(teacher.motion.u[static_cast<int>(t)].begin(), teacher.motion.u[static_cast<int>(t)].end(),
-              action);
+    std::copy_n(teacher.motion.u[static_cast<int>(t)].begin(), kDofs, action);
     ++t;
   });
   ASSERT_EQ(static_cast<int>(made.poses.size()), teacher.motion.x.count());
