@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "core/setting.h"
 #include "judge/choice.h"
@@ -64,8 +65,13 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   if (plan.interrupted) return plan;
   const judge::Candidate planned = judge::candidate_of(reference, plan.after);
   const run::SequenceJob rest = run::after_seconds(job, plan.planning_seconds);
-  if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)
-    return teach_after(config, reference, found, planned, std::move(plan), rest);
+  if (planned.success && config.teaching.teach) {
+    if (found.ending == control::Ending::kFollowed)
+      return teach_after(config, reference, found, planned, std::move(plan), rest);
+    const bool late = plan.ending == record::SequenceEnding::kLimitSeconds;
+    plan.notes.push_back(std::string("no policy: its plan was not complete") +
+                         (late ? " when --limit-seconds stopped it" : ""));
+  }
   if (planned.success) return plan;
   run::SimulatedSequence trained = options_method(config, reference, rest);
   trained.planning_seconds = plan.planning_seconds;
