@@ -13,10 +13,13 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kSigmaHeight = 0.001;  ///< m, of a standing point
-constexpr double kSigmaSlip = 0.0006;   ///< m per frame, of a standing point
-constexpr double kSigmaDepth = 0.0005;  ///< m, of a point below the floor
-constexpr double kSigmaSide = 0.002;    ///< m, of a point in the side of a box
+constexpr double kSigmaHeight = 0.001;       ///< m, of a standing point
+constexpr double kSigmaSlip = 0.0006;        ///< m per frame, of a standing point
+constexpr double kSigmaDepth = 0.0005;       ///< m, of a point below the floor
+constexpr double kSigmaSide = 0.002;         ///< m, of a point in the side of a box
+constexpr double kLandingSpeed = 0.75;       ///< m/s over the floor
+constexpr double kBrakingTime = 1.0 / 30.0;  ///< s before a point stands
+constexpr double kSigmaLanding = 0.003;      ///< m per frame, faster than that
 constexpr double kResting = 0.01;  ///< m from the floor or a side: so far, what came into it is held on it
 constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
@@ -240,6 +243,28 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
   return out;
 }
 
+/// Whether a point of the soles comes down in the frame that ends at t, or stands within kBrakingTime after
+/// it.
+PerFrame<Stance> landings(const PerFrame<Stance>& stance, double fps) {
+  const int frames = stance.count(), before = static_cast<int>(std::lround(kBrakingTime * fps));
+  PerFrame<Stance> out(frames);
+  for (int k = 0; k < kFootPoints; ++k) {
+    int until = before + 1;  // the point stands, frames
+    for (int t = frames - 1; t >= 0; --t) {
+      until = stance[t][k] ? 0 : until + 1;
+      out[t][k] = until <= before && t > 0 && !stance[t - 1][k];
+    }
+  }
+  return out;
+}
+
+/// What swinging points keep to. A point that lands brakes first, else friction has to stop it, and it
+/// slides.
+struct Swing {
+  PerFrame<Array<double, kFootPoints>> clearance;
+  PerFrame<Stance> lands;
+};
+
 /// Points that came into the ground in a step before. They are held on its surface, else every second step
 /// would push them in again.
 struct Held {
@@ -248,9 +273,8 @@ struct Held {
 };
 
 /// @param others  other_leg_points
-Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference,
-                        const PerFrame<Array<double, kFootPoints>>& clearance, const PerFrame<Correction>& c,
-                        const List<ContactPoint>& others, Held& held) {
+Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference, const Swing& swing,
+                        const PerFrame<Correction>& c, const List<ContactPoint>& others, Held& held) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
   const Correction size = sizes(kSigmaPlace, kSigmaLegTurn);
@@ -275,15 +299,23 @@ Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& referen
       const Vector3d& p = now.sole[k];
       const double z = reference.scene.clearance(p);
       if (stands || z < 0.0) equations.add(t, now.sole_J[k].row(2), z, stands ? kSigmaHeight : kSigmaDepth);
-      if (z < clearance[t][k]) equations.add(t, now.sole_J[k].row(2), z - clearance[t][k], kSigmaClearance);
-      const WayOut way = reference.scene.way_out(p, kResting);
-      held.aside[t][k] = way.depth > kResting || (held.aside[t][k] && way.depth > 0.0);
+      const double wanted = swing.clearance[t][k];
+      if (z < wanted) equations.add(t, now.sole_J[k].row(2), z - wanted, kSigmaClearance);
+      const WayOut out = reference.scene.way_out(p, kResting);
+      held.aside[t][k] = out.depth > kResting || (held.aside[t][k] && out.depth > 0.0);
       if (held.aside[t][k])
-        equations.add(t, -way.direction.transpose() * now.sole_J[k], way.depth - kResting, kSigmaSide);
-      if (t == 0 || !stands || !stance[t - 1][k]) continue;
+        equations.add(t, -out.direction.transpose() * now.sole_J[k], out.depth - kResting, kSigmaSide);
+      if (t == 0) continue;
+      const Eigen::Vector2d way = (p - before.sole[k]).head<2>();
+      const double excess = way.norm() - kLandingSpeed / reference.fps;
+      if (swing.lands[t][k] && excess > 0.0) {
+        const Eigen::RowVector2d along = way.normalized().transpose();
+        equations.add(t - 1, along * before.sole_J[k].topRows<2>(), along * now.sole_J[k].topRows<2>(),
+                      excess, kSigmaLanding);
+      }
+      if (!stands || !stance[t - 1][k]) continue;
       for (int axis = 0; axis < 2; ++axis)
-        equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
-                      kSigmaSlip);
+        equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), way[axis], kSigmaSlip);
     }
     for (int k = 0; k < others.count(); ++k) {
       const Vector3d p = lowest_position(others[k], now.poses);
@@ -318,13 +350,13 @@ bool is_planted(const PerFrame<Stance>& stance, const Reference& reference) {
 double plant_feet(const PerFrame<Stance>& stance, Reference& reference) {
   if (is_planted(stance, reference)) return 0.0;
   const int frames = reference.size();
-  const auto clearance = clearances(stance, reference);
+  const Swing swing{clearances(stance, reference), landings(stance, reference.fps)};
   PerFrame<Correction> c(frames, Correction::Zero());
   const List<ContactPoint> others = other_leg_points(reference.character);
   Held held{PerFrame<List<bool>>(frames, List<bool>(others.size(), false)),
             PerFrame<Array<bool, kFootPoints>>(frames)};
   for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
-    const Eigen::VectorXd step = step_of(stance, reference, clearance, c, others, held);
+    const Eigen::VectorXd step = step_of(stance, reference, swing, c, others, held);
     const double largest = step.cwiseAbs().maxCoeff();
     const double scale = std::min(1.0, kLargestPlantingStep / std::max(largest, kSmallestStep));
     for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);

@@ -182,6 +182,35 @@ TEST(FootPlanting, KneesOfAKneelingPersonStayOutOfTheFloor) {
 }
 
 // The right foot of a person who stands is dragged 0.3 m forward over the floor within half a second.
+// An estimate carries a jumping body on at 2 m/s until it lands, and its feet with it, 4 mm over the floor.
+TEST(FootPlanting, LandingFeetBrakeBeforeTheyTouch) {
+  Reference reference = exact("jump");
+  const PerFrame<Stance> stance = stance_of(reference);
+  const auto flies = [&](int t) { return std::count(stance[t].begin(), stance[t].end(), true) == 0; };
+  int start = 0;
+  while (!flies(start)) ++start;
+  int landing = start;
+  while (flies(landing)) ++landing;
+  ASSERT_GT(landing - start, 5);
+  move_pelvis(reference, [&](int t) {
+    return Vector3d(2.0 * (std::clamp(t, start, landing) - start) / reference.fps, 0.0, 0.004);
+  });
+  const auto way = [&](int t) {  // of the points that land, m
+    const SolePositions before = sole_positions(reference.character, reference.poses[t - 1]),
+                        p = sole_positions(reference.character, reference.poses[t]);
+    double longest = 0.0;
+    for (int k = 0; k < kFootPoints; ++k)
+      if (stance[landing][k]) longest = std::max(longest, (p[k] - before[k]).head<2>().norm());
+    return longest;
+  };
+  const double fast = way(landing);
+  ASSERT_GT(fast, 0.055);
+  plant_feet(stance, reference);
+  EXPECT_LT(way(landing), 0.6 * fast);
+  EXPECT_LT(way(landing), way(landing - 1));
+  EXPECT_LT(faults_of(stance, reference).slip, 0.0008);
+}
+
 TEST(FootPlanting, ADraggedFootSteps) {
   Reference reference = exact("stand");
   const int first = 20, last = 35;
