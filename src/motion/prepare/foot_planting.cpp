@@ -13,17 +13,16 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kSigmaHeight = 0.001;       ///< m, of a standing point
-constexpr double kSigmaSlip = 0.0006;        ///< m per frame, of a standing point
-constexpr double kSigmaDepth = 0.0005;       ///< m, of a point below the floor
-constexpr double kSigmaSide = 0.002;         ///< m, of a point in the side of a box
-constexpr double kLandingSpeed = 0.75;       ///< m/s over the floor
-constexpr double kBrakingTime = 1.0 / 30.0;  ///< s before a point stands
-constexpr double kSigmaLanding = 0.003;      ///< m per frame, faster than that
+constexpr double kSigmaHeight = 0.001;   ///< m, of a standing point
+constexpr double kSigmaSlip = 0.0006;    ///< m per frame, of a standing point
+constexpr double kSigmaDepth = 0.0005;   ///< m, of a point below the floor
+constexpr double kSigmaSide = 0.002;     ///< m, of a point in the side of a box
+constexpr double kLandingSpeed = 0.75;   ///< m/s over the floor
+constexpr double kSigmaLanding = 0.003;  ///< m per frame, faster than that
 constexpr double kResting = 0.01;  ///< m from the floor or a side: so far, what came into it is held on it
 constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
-constexpr double kLanding = 0.034, kSwinging = 0.1;  ///< s from a stance of the foot: no clearance, all of it
+constexpr double kLanding = 0.034, kSwinging = 0.1;  ///< s from a stance: a foot lands or leaves, it swings
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
 constexpr double kSigmaPlace = 0.02;           ///< m, of the pelvis
 constexpr double kSigmaPlaceBend = 0.00025;    ///< m, second difference at 30 frames per second
@@ -243,10 +242,9 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
   return out;
 }
 
-/// Whether a point of the soles comes down in the frame that ends at t, or stands within kBrakingTime after
-/// it.
+/// Whether a point of the soles comes down in the frame that ends at t, or within kLanding after it.
 PerFrame<Stance> landings(const PerFrame<Stance>& stance, double fps) {
-  const int frames = stance.count(), before = static_cast<int>(std::lround(kBrakingTime * fps));
+  const int frames = stance.count(), before = static_cast<int>(std::lround(kLanding * fps));
   PerFrame<Stance> out(frames);
   for (int k = 0; k < kFootPoints; ++k) {
     int until = before + 1;  // the point stands, frames
@@ -258,8 +256,7 @@ PerFrame<Stance> landings(const PerFrame<Stance>& stance, double fps) {
   return out;
 }
 
-/// What swinging points keep to. A point that lands brakes first, else friction has to stop it, and it
-/// slides.
+/// What swinging points keep to. A point that lands brakes first: one that friction has to stop slides.
 struct Swing {
   PerFrame<Array<double, kFootPoints>> clearance;
   PerFrame<Stance> lands;
