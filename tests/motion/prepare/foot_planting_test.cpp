@@ -181,7 +181,6 @@ TEST(FootPlanting, KneesOfAKneelingPersonStayOutOfTheFloor) {
   for (const BodyPoses& poses : reference.poses) EXPECT_GT(lowest(poses, false), -0.002);
 }
 
-// The right foot of a person who stands is dragged 0.3 m forward over the floor within half a second.
 // An estimate carries a jumping body on at 2 m/s until it lands, and its feet with it, 4 mm over the floor.
 TEST(FootPlanting, LandingFeetBrakeBeforeTheyTouch) {
   Reference reference = exact("jump");
@@ -211,6 +210,7 @@ TEST(FootPlanting, LandingFeetBrakeBeforeTheyTouch) {
   EXPECT_LT(faults_of(stance, reference).slip, 0.0008);
 }
 
+// The right foot of a person who stands is dragged 0.3 m forward over the floor within half a second.
 TEST(FootPlanting, ADraggedFootSteps) {
   Reference reference = exact("stand");
   const int first = 20, last = 35;
