@@ -38,8 +38,8 @@ audit::Slip judge_forces(const LoadedMotion& motion, motion::Metrics& metrics) {
 }
 
 audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                        const Scene& scene, motion::Metrics& metrics) {
-  const audit::Slip slip = audit::slip_of_poses(character, poses, fps, scene);
+                        const Scene& scene, double gravity, motion::Metrics& metrics) {
+  const audit::Slip slip = audit::slip_of_poses(character, poses, fps, scene, gravity);
   take_slip(slip, metrics);
   return slip;
 }

@@ -28,7 +28,7 @@ audit::Slip judge_forces(const LoadedMotion& motion, motion::Metrics& metrics);
 /// Slip of poses, with their best floor forces. They have no chatter, because these forces are smoothed.
 /// @return its slip, frame by frame
 audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                        const Scene& scene, motion::Metrics& metrics);
+                        const Scene& scene, double gravity, motion::Metrics& metrics);
 
 /// Of a clip: by its recorded forces at its own rate, or else by its poses at motion::kMetricRate.
 /// @throws DataError as `files::recorded_forces`

@@ -51,7 +51,7 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
   return scores;
 }
 
-InputScores score_input(const motion::Clip& input, const motion::Reference& reference) {
+InputScores score_input(const motion::Clip& input, const motion::Reference& reference, double gravity) {
   const Character character = motion::character_of(input);
   const PerFrame<BodyPoses> poses = motion::poses_of(motion::resampled(input, reference.fps));
   const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps, input.scene);
@@ -60,7 +60,7 @@ InputScores score_input(const motion::Clip& input, const motion::Reference& refe
       same_length ? motion::sample_motion(character, reference.poses, reference.fps, reference.scene)
                   : motion::MotionSamples{};
   motion::Metrics metrics = motion::evaluate_motion(raw, same_length ? &prepared : nullptr);
-  audit::Slip slip = judge_poses(character, poses, reference.fps, input.scene, metrics);
+  audit::Slip slip = judge_poses(character, poses, reference.fps, input.scene, gravity, metrics);
   return {named_values(metrics), std::move(slip)};
 }
 

@@ -38,6 +38,8 @@ struct InputScores {
 /// The unprepared input (free joints, its own height) on its own scene, resampled to the reference's frame
 /// rate, against the prepared reference, whose scene a fit may have moved; metrics against it are NaN if the
 /// reference has another number of frames.
-InputScores score_input(const motion::Clip& input, const motion::Reference& reference);
+/// @param gravity  of the simulation, m/s²
+InputScores score_input(const motion::Clip& input, const motion::Reference& reference,
+                        double gravity = kGravity);
 
 }  // namespace mimicx::judge

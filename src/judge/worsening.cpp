@@ -193,7 +193,8 @@ std::vector<record::Worsening> worsenings(const Origin& origin, const rl::tracki
   const PerFrame<BodyPoses> poses = poses_of(body, rollout);
   const Faults input{samples_at(origin.input, reference.fps), curve_of(origin.input_scores.slip)},
       asked{motion::sample_motion(body, reference.poses, reference.fps, reference.scene),
-            curve_of(judge_poses(body, reference.poses, reference.fps, reference.scene, unused))},
+            curve_of(
+                judge_poses(body, reference.poses, reference.fps, reference.scene, rollout.gravity, unused))},
       made{motion::sample_motion(body, poses, reference.fps, reference.scene),
            curve_of(
                judge_forces({body, poses, ground, reference.fps, reference.scene, rollout.gravity}, unused))};

@@ -61,17 +61,17 @@ struct Seen {
   MeasuredMotion measured;
 };
 
-/// @param forces  recorded with the clip at the same rate; none: the best ones for its poses
-Seen seen(Who who, const motion::Clip& clip, double fps,
-          const std::optional<files::RecordedForces>& forces = std::nullopt) {
+/// @param gravity  of the simulation, m/s²
+/// @param forces   recorded with the clip at the same rate; none: the best ones for its poses
+Seen seen(Who who, const motion::Clip& clip, double fps, double gravity,
+          const std::optional<files::RecordedForces>& forces) {
   const motion::Clip at_rate = motion::resampled(clip, fps);
   Seen s{{who, motion::character_of(at_rate), motion::poses_of(at_rate), {}}, {}};
   const Character& character = s.motion.character;
   const PerFrame<BodyPoses>& poses = s.motion.poses;
   const audit::Slip slip =
-      forces ? audit::slip_of(poses, forces->ground, files::recorded_gravity(clip) * character.total_mass(),
-                              fps, clip.scene)
-             : audit::slip_of_poses(character, poses, fps, clip.scene);
+      forces ? audit::slip_of(poses, forces->ground, gravity * character.total_mass(), fps, clip.scene)
+             : audit::slip_of_poses(character, poses, fps, clip.scene, gravity);
   s.measured = measured(motion::sample_motion(character, poses, fps, clip.scene), slip.speed);
   for (const auto& surface : s.measured.samples.surface)
     s.motion.support.push_back(support_of(surface, clip.scene));
@@ -97,18 +97,22 @@ ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntr
   ClipFiles files;
   files.members = read_npz(folder.root / entry.output);
   files.cleaned = motion::clip_from(files.members, entry.name);
+  const double gravity = files::recorded_gravity(files.cleaned);
+  const auto add = [&](Who who, const motion::Clip& clip,
+                       const std::optional<files::RecordedForces>& forces = std::nullopt) {
+    files.motions.push_back(seen(who, clip, entry.fps, gravity, forces));
+  };
   if (const auto input = folder.input(entry.name); std::filesystem::exists(input)) {
     files.input = motion::read_clip(input);
-    files.motions.push_back(seen(Who::kInput, *files.input, entry.fps));
+    add(Who::kInput, *files.input);
   }
-  files.motions.push_back(seen(Who::kReference, motion::read_clip(folder.reference(entry.name)), entry.fps));
-  files.motions.push_back(
-      seen(Who::kCleaned, files.cleaned, entry.fps, files::recorded_forces(files.cleaned)));
+  add(Who::kReference, motion::read_clip(folder.reference(entry.name)));
+  add(Who::kCleaned, files.cleaned, files::recorded_forces(files.cleaned));
   if (!read_truth) return files;
   try {
     motion::Clip known = read_truth();
     known.scene = files.cleaned.scene;
-    files.motions.push_back(seen(Who::kTruth, known, entry.fps));
+    add(Who::kTruth, known);
   } catch (const std::exception& error) {
     notes.push_back(std::string("the truth cannot be shown: ") + error.what());
   }

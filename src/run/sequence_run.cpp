@@ -129,7 +129,7 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   const RunState& run = worker.run;
   JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}, {}};
   motion.needs = judge::needs_of(motion.reference, run.method.simulation);
-  motion.input_scores = judge::score_input(motion.input, motion.reference);
+  motion.input_scores = judge::score_input(motion.input, motion.reference, run.method.simulation.gravity);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "motion/made_motions.h"
@@ -35,6 +36,22 @@ TEST(Scores, InputStandsOnItsOwnScene) {
     const NamedValues values = score_input(input, reference).values;
     for (const char* name : {"GP", "Float", "slip"}) EXPECT_NEAR(value_of(values, name), 0.0, 1e-6) << name;
   }
+}
+
+// A fifth of a second of free fall on the moon, at most 8 mm over the floor, which would carry such a body on
+// Earth.
+TEST(Scores, InputFallsWithTheGravityOfTheSimulation) {
+  constexpr double kMoon = 1.62, kFlight = 0.2;
+  motion::Clip clip = test::standing_clip(36, test::standing_height());
+  for (int t = 0; t < clip.frames(); ++t) {
+    const double s = std::clamp(t / clip.fps - 0.5, 0.0, kFlight);
+    clip.trans[t].z() += 0.5 * kMoon * s * (kFlight - s);
+  }
+  const motion::Reference reference = motion::prepare_reference(clip, {}, nullptr);
+  const audit::Slip moon = score_input(clip, reference, kMoon).slip,
+                    earth = score_input(clip, reference).slip;
+  EXPECT_TRUE(std::isnan(moon.speed[18]));
+  EXPECT_FALSE(std::isnan(earth.speed[18]));
 }
 
 }  // namespace
