@@ -98,12 +98,16 @@ HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   return attempt.run(gentle, attempt.config.horizon.backtracks);
 }
 
-/// Plans in stages with assistive forces, then an unassisted plan that follows the last stage. @return the
-/// unassisted plan, or the first state alone if the first stage did not reach the end
+/// Plans in stages with assistive forces, then an unassisted plan that follows the last stage. Windows of a
+/// stage end earlier, because its motion is only where the next one begins. @return the unassisted plan, or
+/// the first state alone if the first stage did not reach the end
 HorizonResult plan_in_stages(const Attempt& unassisted, const Cost& cost) {
+  constexpr double kStageStop = 0.08;
   System assisted_system = unassisted.system;
   assisted_system.assisted = true;
-  const Attempt assisted{assisted_system, unassisted.config, unassisted.control, unassisted.plan};
+  PlanConfig rough = unassisted.config;
+  rough.horizon.stop = std::max(rough.horizon.stop, kStageStop);
+  const Attempt assisted{assisted_system, rough, unassisted.control, unassisted.plan};
   AssistedPlan first = plan_with_assistance(assisted, cost);
   unassisted.plan.stage_assistance = assistance_in(first.found.motion);
   if (first.found.ending != Ending::kFollowed) {
