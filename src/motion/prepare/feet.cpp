@@ -1,10 +1,13 @@
 #include "motion/prepare/feet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "core/elementary.h"
 #include "core/quantile.h"
 #include "core/units.h"
+#include "motion/prepare/sliding_window.h"
 
 namespace mimicx::motion {
 namespace {
@@ -14,6 +17,10 @@ constexpr double kStandingHeight = 0.06;  // m over the low percentile
 constexpr double kLowShare = 0.1;
 constexpr std::size_t kFewestFrames = 10;
 constexpr double kSmallest = 10.0 * kDegree, kLargest = 30.0 * kDegree;
+constexpr double kLevelTilt = 5.0 * kDegree;  // a smaller tilt
+constexpr double kLevelShare = 0.25;  // of the standing frames: who is level in more has no constant error
+constexpr double kRollReach = 0.3;    // s before and after a frame
+constexpr double kRollSigma = 0.1;    // s
 constexpr double kLargestBend = 60.0 * kDegree;
 
 /// Speed of a joint at a frame, m/s, by central differences.
@@ -23,21 +30,50 @@ double speed(const PerFrame<BodyPoses>& poses, int t, int body, double fps) {
   return fps / (after - before) * (poses[after].p_WB[body] - poses[before].p_WB[body]).norm();
 }
 
-/// Body-fixed rotation that levels a body whose up axis (y) should point up in the given frames.
-Quaterniond levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body) {
-  Array<std::vector<double>, 3> up;  // world's up in the body's frame
+/// World's up in a body's frame, whose own up is y.
+Vector3d up_in(const Quaterniond& q_WB) { return q_WB.conjugate() * Vector3d::UnitZ(); }
+
+/// Body-fixed rotation that levels a body in the given frames, as far as its tilt there is the same.
+Quaterniond constant_levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body) {
+  Array<std::vector<double>, 3> up;
+  double level = 0.0;
   for (int t = 0; t < poses.count(); ++t) {
     if (!standing[t]) continue;
-    const Vector3d u = poses[t].q_WB[body].conjugate() * Vector3d::UnitZ();
+    const Vector3d u = up_in(poses[t].q_WB[body]);
+    level += u.y() > cos(kLevelTilt);
     for (int k = 0; k < 3; ++k) up[k].push_back(u[k]);
   }
-  if (up[0].size() < kFewestFrames) return Quaterniond::Identity();
+  const std::size_t frames = up[0].size();
+  if (frames < kFewestFrames || level > kLevelShare * static_cast<double>(frames))
+    return Quaterniond::Identity();
   const Vector3d median(quantile(up[0], 0.5), quantile(up[1], 0.5), quantile(up[2], 0.5));
   if (median.norm() < 0.5) return Quaterniond::Identity();  // no common direction
   const Vector3d rotation = log_map(rotation_between(Vector3d::UnitY(), median));
   const double angle = rotation.norm();
   if (angle < kSmallest || angle > 1.5 * kLargest) return Quaterniond::Identity();
   return exp_map(std::min(1.0, kLargest / angle) * rotation);
+}
+
+/// Turns about a body's long axis (z), rad, that level it from side to side where it stands.
+/// @param levelled  constant rotation of the body that comes before
+PerFrame<double> rolls(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body,
+                       const Quaterniond& levelled, double fps) {
+  const int frames = poses.count(), reach = static_cast<int>(std::lround(kRollReach * fps));
+  PerFrame<double> roll(frames, 0.0);
+  for (int t = 0; t < frames; ++t) {
+    std::vector<double> tilts;
+    for (int k = std::max(t - reach, 0); k < std::min(t + reach + 1, frames); ++k) {
+      if (!standing[k]) continue;
+      const Vector3d u = up_in(poses[k].q_WB[body] * levelled);
+      tilts.push_back(atan2(-u.x(), u.y()));
+    }
+    if (static_cast<int>(tilts.size()) <= reach) continue;  // it hardly stands
+    const double tilt = quantile(tilts, 0.5), size = std::abs(tilt);
+    if (size > 1.5 * kLargest) continue;
+    const double share = std::clamp((size - kLevelTilt) / (kSmallest - kLevelTilt), 0.0, 1.0);
+    roll[t] = std::copysign(share * size, tilt);
+  }
+  return smoothed(roll, kRollSigma * fps);
 }
 
 }  // namespace
@@ -63,14 +99,19 @@ double level_feet(Reference& reference) {
   for (int ankle : {kLeftAnkle, kRightAnkle}) {
     const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
     const PerFrame<bool> standing = standing_frames(reference.poses, ankle, reference.fps, reference.scene);
-    const Quaterniond sole = levelling(reference.poses, standing, ankle);
-    const Quaterniond toes = levelling(reference.poses, standing, ball);
-    for (ReferenceFrame& frame : reference.frames) {
-      Quaterniond &q_ankle = frame.q[ankle], &q_ball = frame.q[ball];
+    Array<PerFrame<Quaterniond>, 2> turns;  // of sole and toes
+    for (const int body : {ankle, ball}) {
+      const Quaterniond constant = constant_levelling(reference.poses, standing, body);
+      for (const double roll : rolls(reference.poses, standing, body, constant, reference.fps))
+        turns[body == ball].push_back(constant * exp_map(Vector3d(0.0, 0.0, roll)));
+    }
+    for (int t = 0; t < reference.size(); ++t) {
+      const Quaterniond &sole = turns[0][t], &toes = turns[1][t];
+      Quaterniond &q_ankle = reference.frames[t].q[ankle], &q_ball = reference.frames[t].q[ball];
       q_ankle = (q_ankle * sole).normalized();
       q_ball = (sole.conjugate() * q_ball * toes).normalized();
+      for (const Quaterniond& q : {sole, toes}) largest = std::max(largest, log_map(q).norm() / kDegree);
     }
-    for (const Quaterniond& q : {sole, toes}) largest = std::max(largest, log_map(q).norm() / kDegree);
   }
   return largest;
 }

@@ -3,9 +3,11 @@
 /// Estimated and converted motions often have a constant error in the pitch of the feet: a person who stands
 /// flat stands on the toes or the heels. A simulated character would have its support in the wrong place.
 /// The sole of a standing foot is level. Therefore the median direction of "up" in the foot's frame over its
-/// standing frames shows the constant error, and one constant rotation removes it.
+/// standing frames shows the constant error, and one constant rotation removes it. A foot that stands level
+/// in a quarter of these frames has none: its heel may be up in the others. But nobody stands on the edge of
+/// a foot, so what is left from side to side is removed where it is.
 ///
-/// What it does not do: it keeps the foot's motion relative to that constant, so heel strikes and push-offs
+/// What it does not do: it keeps the foot's pitch relative to that constant, so heel strikes and push-offs
 /// remain. It does not change feet that hardly ever stand or whose tilt is too large for an error.
 #pragma once
 
@@ -19,9 +21,10 @@ namespace mimicx::motion {
 PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps,
                                const Scene& scene = {});
 
-/// Levels both soles and both toes by constant rotations of at most 30°. `poses` must be those of `frames`
-/// and are not updated. Feet with fewer than 10 standing frames or an error under 10° stay unchanged: a
-/// policy corrects small errors, and the feet of such clips drift by about as much.
+/// Levels both soles and both toes: by a constant rotation of at most 30°, then from side to side by the
+/// median tilt of the standing frames within 0.3 s, smoothly. `poses` must be those of `frames` and are not
+/// updated. Feet with fewer than 10 standing frames, a constant error under 10° or a tilt under 5° stay
+/// unchanged: a policy corrects small errors, and the feet of such clips drift by about as much.
 /// @return largest rotation applied, degrees
 double level_feet(Reference& reference);
 

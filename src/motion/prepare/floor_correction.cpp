@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/elementary.h"
 #include "motion/prepare/sliding_window.h"
 
 namespace mimicx::motion {
@@ -16,22 +15,6 @@ constexpr double kSupportSmoothing = 0.3;      ///< s, standard deviation
 constexpr double kMaxDrift = 0.15;             ///< m
 constexpr double kPenetrationAllowed = 0.010;  ///< m
 constexpr double kLiftRadius = 1.0 / 15.0;     ///< s
-
-/// Gaussian of standard deviation `sigma` (frames), normalised where the ends cut it.
-PerFrame<double> smoothed(const PerFrame<double>& x, double sigma) {
-  const int radius = static_cast<int>(std::ceil(3.0 * sigma));
-  PerFrame<double> out(x.size());
-  for (int i = 0; i < x.count(); ++i) {
-    double sum = 0.0, weights = 0.0;
-    for (int k = std::max(0, i - radius); k <= std::min(x.count() - 1, i + radius); ++k) {
-      const double u = (k - i) / sigma, weight = exp(-0.5 * u * u);
-      sum += weight * x[k];
-      weights += weight;
-    }
-    out[i] = sum / weights;
-  }
-  return out;
-}
 
 /// A smooth curve nowhere under `need`: the maximum over twice the radius, averaged twice over the radius.
 PerFrame<double> smooth_cover(const PerFrame<double>& need, double fps) {

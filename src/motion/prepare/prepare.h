@@ -24,7 +24,7 @@ struct PreparationReport {
   double range_deg = 0;        ///< largest distance of a joint beyond its range
   int passages = 0;            ///< of limbs through the body that were led around it (self_passage.h)
   int passages_left = 0;       ///< for which no way around was found
-  double foot_level_deg = 0;   ///< largest constant rotation by which level_feet turned a sole or toes
+  double foot_level_deg = 0;   ///< largest rotation by which level_feet turned a sole or toes
   int flagged_frames = 0;      ///< frames of glitches that were bridged (glitches.h)
   int limb_frames = 0;  ///< frames of glitches of single limbs (limb_glitches.h), summed over the limbs
   std::vector<std::string> notes;
@@ -35,7 +35,7 @@ struct PreparationConfig {
   bool ranges = true;           ///< bring joints inside their ranges
   bool separate = true;         ///< lead limbs around the body, and move arms out of it
   bool sees = false;            ///< fitted to its keypoints: they help to decide where a limb goes around
-  bool level_feet = true;       ///< remove a constant error in the pitch and roll of standing feet
+  bool level_feet = true;       ///< remove errors in the pitch and roll of standing feet
   bool ground = true;           ///< align with the floor
   bool plant = true;            ///< put standing feet on one place of the floor, if `ground`
   bool bridge_flagged = true;   ///< interpolate over implausible frames

@@ -52,6 +52,50 @@ TEST(Feet, RemovesAConstantErrorOfTheFeet) {
   }
 }
 
+/// Prepared as if nothing were wrong with feet and floor.
+PreparationConfig unlevelled() {
+  PreparationConfig config;
+  config.level_feet = config.ground = config.plant = config.ranges = false;
+  return config;
+}
+
+/// A standing body whose ankles are turned by `rotation` in frames 30 to 69 of 100.
+Clip turned_for_a_while(const Vector3d& rotation) {
+  Clip clip = test::standing_clip(100, test::standing_height());
+  const Clip turned = test::with_turned_feet(clip, rotation);
+  for (int t = 30; t < 70; ++t) clip.rotations[t] = turned.rotations[t];
+  return clip;
+}
+
+/// Largest angle of the left sole from level, degrees, in frames a, a + 1, …, b − 1.
+double largest_tilt(const Reference& reference, int a, int b) {
+  double largest = 0.0;
+  for (int t = a; t < b; ++t) {
+    const Vector3d up = reference.poses[t].q_WB[kLeftAnkle] * Vector3d::UnitY();
+    largest = std::max(largest, angle_between(up, Vector3d::UnitZ()) / kDegree);
+  }
+  return largest;
+}
+
+TEST(Feet, RollIsRemovedWhereItIs) {
+  Reference r = prepare_reference(turned_for_a_while({0, 0, 25 * kDegree}), unlevelled(), nullptr);
+  ASSERT_GT(largest_tilt(r, 30, 70), 20.0);
+  EXPECT_NEAR(level_feet(r), 25.0, 1.0);
+  for (int t = 0; t < r.size(); ++t)
+    r.poses[t] = forward_kinematics(r.character, r.frames[t].p_root, r.frames[t].q);
+  EXPECT_LT(largest_tilt(r, 0, 20), 0.1);
+  EXPECT_LT(largest_tilt(r, 40, 60), 0.1);
+  EXPECT_LT(largest_tilt(r, 80, 100), 0.1);
+}
+
+TEST(Feet, HeelThatIsUpForAWhileTurnsNoOtherFrame) {
+  Clip clip = turned_for_a_while({20 * kDegree, 0, 0});
+  for (int t = 10; t < 30; ++t) clip.rotations[t] = clip.rotations[30];  // six tenths of the frames
+  Reference r = prepare_reference(clip, unlevelled(), nullptr);
+  ASSERT_GT(largest_tilt(r, 10, 70), 15.0);
+  EXPECT_EQ(level_feet(r), 0.0);
+}
+
 TEST(Feet, FootThatSwingsThroughABoxIsOnItAndOneThatStandsInItIsNot) {
   const Reference r = prepare_reference(walk(), {}, nullptr);
   const std::vector<SurfacePoint> points = surface_points(r.character);
