@@ -58,22 +58,31 @@ Quaterniond constant_levelling(const PerFrame<BodyPoses>& poses, const PerFrame<
 /// @param levelled  constant rotation of the body that comes before
 PerFrame<double> rolls(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body,
                        const Quaterniond& levelled, double fps) {
-  const int frames = poses.count(), reach = static_cast<int>(std::lround(kRollReach * fps));
-  PerFrame<double> roll(frames, 0.0);
-  for (int t = 0; t < frames; ++t) {
-    std::vector<double> tilts;
-    for (int k = std::max(t - reach, 0); k < std::min(t + reach + 1, frames); ++k) {
-      if (!standing[k]) continue;
-      const Vector3d u = up_in(poses[k].q_WB[body] * levelled);
-      tilts.push_back(atan2(-u.x(), u.y()));
-    }
-    if (static_cast<int>(tilts.size()) <= reach) continue;  // it hardly stands
-    const double tilt = quantile(tilts, 0.5), size = std::abs(tilt);
-    if (size > 1.5 * kLargest) continue;
-    const double share = std::clamp((size - kLevelTilt) / (kSmallest - kLevelTilt), 0.0, 1.0);
-    roll[t] = std::copysign(share * size, tilt);
+  const int reach = static_cast<int>(std::lround(kRollReach * fps));
+  PerFrame<double> tilts(poses.size(), std::numeric_limits<double>::quiet_NaN());  // NaN: it does not stand
+  for (int t = 0; t < poses.count(); ++t) {
+    if (!standing[t]) continue;
+    const Vector3d u = up_in(poses[t].q_WB[body] * levelled);
+    tilts[t] = atan2(-u.x(), u.y());
   }
-  return smoothed(roll, kRollSigma * fps);
+  const auto roll = [&](std::vector<double> near) {
+    std::erase_if(near, [](double tilt) { return std::isnan(tilt); });
+    if (static_cast<int>(near.size()) <= reach) return 0.0;  // it hardly stands
+    const double tilt = quantile(near, 0.5), size = std::abs(tilt);
+    if (size > 1.5 * kLargest) return 0.0;
+    return tilt * std::clamp((size - kLevelTilt) / (kSmallest - kLevelTilt), 0.0, 1.0);
+  };
+  return smoothed(sliding(tilts, reach, roll), kRollSigma * fps);
+}
+
+/// Body-fixed rotations that level a body, frame by frame.
+PerFrame<Quaterniond> levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body,
+                                double fps) {
+  const Quaterniond constant = constant_levelling(poses, standing, body);
+  PerFrame<Quaterniond> turns;
+  for (const double roll : rolls(poses, standing, body, constant, fps))
+    turns.push_back(constant * exp_map(Vector3d(0.0, 0.0, roll)));
+  return turns;
 }
 
 }  // namespace
@@ -99,18 +108,14 @@ double level_feet(Reference& reference) {
   for (int ankle : {kLeftAnkle, kRightAnkle}) {
     const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
     const PerFrame<bool> standing = standing_frames(reference.poses, ankle, reference.fps, reference.scene);
-    Array<PerFrame<Quaterniond>, 2> turns;  // of sole and toes
-    for (const int body : {ankle, ball}) {
-      const Quaterniond constant = constant_levelling(reference.poses, standing, body);
-      for (const double roll : rolls(reference.poses, standing, body, constant, reference.fps))
-        turns[body == ball].push_back(constant * exp_map(Vector3d(0.0, 0.0, roll)));
-    }
+    const PerFrame<Quaterniond> soles = levelling(reference.poses, standing, ankle, reference.fps),
+                                toes = levelling(reference.poses, standing, ball, reference.fps);
     for (int t = 0; t < reference.size(); ++t) {
-      const Quaterniond &sole = turns[0][t], &toes = turns[1][t];
       Quaterniond &q_ankle = reference.frames[t].q[ankle], &q_ball = reference.frames[t].q[ball];
-      q_ankle = (q_ankle * sole).normalized();
-      q_ball = (sole.conjugate() * q_ball * toes).normalized();
-      for (const Quaterniond& q : {sole, toes}) largest = std::max(largest, log_map(q).norm() / kDegree);
+      q_ankle = (q_ankle * soles[t]).normalized();
+      q_ball = (soles[t].conjugate() * q_ball * toes[t]).normalized();
+      for (const Quaterniond& q : {soles[t], toes[t]})
+        largest = std::max(largest, log_map(q).norm() / kDegree);
     }
   }
   return largest;
