@@ -48,10 +48,10 @@ struct FloorForces {
   PerFrame<double> height;  ///< of the floor that gives them, over the ground of the scene, m
 };
 FloorForces best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                              const Scene& scene = {}, double gravity = kGravity);
+                              const Scene& scene, double gravity);
 /// Slip by these forces.
 Slip slip_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                   const Scene& scene = {}, double gravity = kGravity);
+                   const Scene& scene, double gravity);
 /// The same of a clip's poses at motion::kMetricRate.
 Slip slip_of_clip(const motion::Clip& clip, double gravity);
 

@@ -39,7 +39,6 @@ struct InputScores {
 /// rate, against the prepared reference, whose scene a fit may have moved; metrics against it are NaN if the
 /// reference has another number of frames.
 /// @param gravity  of the simulation, m/s²
-InputScores score_input(const motion::Clip& input, const motion::Reference& reference,
-                        double gravity = kGravity);
+InputScores score_input(const motion::Clip& input, const motion::Reference& reference, double gravity);
 
 }  // namespace mimicx::judge

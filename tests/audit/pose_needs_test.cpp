@@ -87,8 +87,8 @@ TEST(PoseNeeds, OnAPlateAreAsOnTheFloor) {
     EXPECT_NEAR(high_needs.frames[t].lowest, low_needs.frames[t].lowest, 1e-9);
   }
   EXPECT_GT(hovering.frames[10].force.norm(), 0.5 * hovering.weight);
-  const Slip low_slip = slip_of_poses(character, motion::poses_of(clip), clip.fps),
-             high_slip = slip_of_poses(character, poses, clip.fps, high.scene);
+  const Slip low_slip = slip_of_poses(character, motion::poses_of(clip), clip.fps, {}, kGravity),
+             high_slip = slip_of_poses(character, poses, clip.fps, high.scene, kGravity);
   EXPECT_EQ(high_slip.loaded, low_slip.loaded);
   EXPECT_NEAR(high_slip.mean, low_slip.mean, 1e-3);
 }

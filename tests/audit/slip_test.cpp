@@ -118,7 +118,7 @@ motion::Clip exact_clip(const std::string& kind) {
 TEST(BestFloorForces, CarryABodyThatStands) {
   const Character c = make_character();
   const PerFrame<BodyPoses> poses = standing(8);
-  const int loaded = slip_of_poses(c, poses, 30.0).loaded;
+  const int loaded = slip_of_poses(c, poses, 30.0, {}, kGravity).loaded;
   for (const double gravity : {kGravity, 1.62}) {
     const FloorWrenches ground = best_floor_forces(c, poses, 30.0, {}, gravity).ground;
     const double weight = gravity * c.total_mass();
@@ -137,7 +137,7 @@ TEST(BestFloorForces, SlidingBodySlipsAtItsSpeedAtAnyHeight) {
   const Character c = make_character();
   for (const double height : {0.0, 0.6, -0.3}) {
     const auto poses = shifted_by(standing(12), {0.004, 0.0, 0.0}, {0.0, 0.0, height});
-    const Slip slip = slip_of_poses(c, poses, 30.0);
+    const Slip slip = slip_of_poses(c, poses, 30.0, {}, kGravity);
     EXPECT_NEAR(slip.mean, 4.0, 1e-6) << height;
     EXPECT_EQ(slip.share, 100.0) << height;
   }
@@ -147,10 +147,10 @@ TEST(BestFloorForces, SlidingBodySlipsAtItsSpeedAtAnyHeight) {
 TEST(BestFloorForces, SlipDoesNotDependOnTheHeightOfTheMotion) {
   const motion::Clip clip = exact_clip("walk");
   const Character c = motion::character_of(clip);
-  const Slip low = slip_of_poses(c, motion::poses_of(clip), clip.fps);
+  const Slip low = slip_of_poses(c, motion::poses_of(clip), clip.fps, {}, kGravity);
   for (const double height : {0.5, -0.3}) {
     const auto poses = shifted_by(motion::poses_of(clip), Vector3d::Zero(), {0.0, 0.0, height});
-    const Slip slip = slip_of_poses(c, poses, clip.fps);
+    const Slip slip = slip_of_poses(c, poses, clip.fps, {}, kGravity);
     EXPECT_NEAR(slip.mean, low.mean, 1e-3) << height;  // points at the edge of the reach may change sides
     EXPECT_NEAR(slip.loaded, low.loaded, 0.01 * low.loaded) << height;
   }
@@ -161,12 +161,12 @@ TEST(BestFloorForces, ToesOfASwingingFootAreNotTheFloor) {
   const motion::Clip clip = exact_clip("walk");
   const Character c = motion::character_of(clip);
   PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  const Slip clean = slip_of_poses(c, poses, clip.fps);
+  const Slip clean = slip_of_poses(c, poses, clip.fps, {}, kGravity);
   for (int t = 1; t < poses.count(); ++t)
     for (const int foot : {kLeftFoot, kRightFoot})
       if ((poses[t].p_WB[foot] - poses[t - 1].p_WB[foot]).head<2>().norm() * clip.fps > 1.0)
         poses[t].p_WB[foot].z() -= 0.03 + std::max(0.0, poses[t].p_WB[foot].z() - 0.02);
-  const Slip dipped = slip_of_poses(c, poses, clip.fps);
+  const Slip dipped = slip_of_poses(c, poses, clip.fps, {}, kGravity);
   EXPECT_GT(dipped.loaded, 0.8 * clean.loaded);
   EXPECT_LT(dipped.mean, clean.mean + 0.5);
 }
@@ -175,13 +175,14 @@ TEST(BestFloorForces, FallingBodyLoadsNothing) {
   PerFrame<BodyPoses> poses = standing(12);
   for (int t = 0; t < 12; ++t)
     for (Vector3d& p : poses[t].p_WB) p += Vector3d(0.05 * t, 0.0, -0.5 * kGravity * t * t / 900.0);
-  EXPECT_EQ(slip_of_poses(make_character(), poses, 30.0).loaded, 0);
+  EXPECT_EQ(slip_of_poses(make_character(), poses, 30.0, {}, kGravity).loaded, 0);
 }
 
 TEST(BestFloorForces, ExactMotionsHardlySlip) {
   for (const char* kind : {"walk", "squat", "kick", "jump"}) {
     const motion::Clip clip = exact_clip(kind);
-    const Slip slip = slip_of_poses(motion::character_of(clip), motion::poses_of(clip), clip.fps);
+    const Slip slip =
+        slip_of_poses(motion::character_of(clip), motion::poses_of(clip), clip.fps, {}, kGravity);
     EXPECT_LT(slip.mean, 0.1) << kind;
     EXPECT_LT(slip.share, 2.5) << kind;
     EXPECT_GT(slip.loaded, clip.frames()) << kind;
@@ -189,7 +190,7 @@ TEST(BestFloorForces, ExactMotionsHardlySlip) {
 }
 
 TEST(BestFloorForces, OfFewerThanThreeFramesAreZero) {
-  EXPECT_EQ(slip_of_poses(make_character(), standing(2), 30.0).loaded, 0);
+  EXPECT_EQ(slip_of_poses(make_character(), standing(2), 30.0, {}, kGravity).loaded, 0);
 }
 
 /// The feet of a real walk, loaded by hand: 300 N at each ankle and 100 N at each ball, straight down.

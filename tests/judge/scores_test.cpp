@@ -18,8 +18,8 @@ TEST(Scores, InputOfAnotherRateIsScoredAtTheReferencesRate) {
   motion::Clip clip = motion::standing_clip(21);
   for (int t = 0; t < clip.frames(); ++t) clip.trans[t].x() += 0.010 * t;
   const motion::Reference reference = motion::prepare_reference(clip, {}, nullptr);
-  const NamedValues at_30 = score_input(clip, reference).values,
-                    at_120 = score_input(motion::resampled(clip, 120.0), reference).values;
+  const NamedValues at_30 = score_input(clip, reference, kGravity).values,
+                    at_120 = score_input(motion::resampled(clip, 120.0), reference, kGravity).values;
   EXPECT_GT(value_of(at_30, "FS_gt"), 9.0) << "mm per frame at 30 fps";
   for (const auto& [name, value] : at_30)
     if (!std::isnan(value)) {
@@ -33,7 +33,7 @@ TEST(Scores, InputStandsOnItsOwnScene) {
   motion::Reference reference = motion::prepare_reference(input, {}, nullptr);
   for (const double moved : {0.05, -0.05}) {
     reference.scene.plates[0].height = test::kRaised + moved;
-    const NamedValues values = score_input(input, reference).values;
+    const NamedValues values = score_input(input, reference, kGravity).values;
     for (const char* name : {"GP", "Float", "slip"}) EXPECT_NEAR(value_of(values, name), 0.0, 1e-6) << name;
   }
 }
@@ -49,7 +49,7 @@ TEST(Scores, InputFallsWithTheGravityOfTheSimulation) {
   }
   const motion::Reference reference = motion::prepare_reference(clip, {}, nullptr);
   const audit::Slip moon = score_input(clip, reference, kMoon).slip,
-                    earth = score_input(clip, reference).slip;
+                    earth = score_input(clip, reference, kGravity).slip;
   EXPECT_TRUE(std::isnan(moon.speed[18]));
   EXPECT_FALSE(std::isnan(earth.speed[18]));
 }

@@ -66,7 +66,7 @@ std::vector<record::Worsening> worse(const Way& input, const Way& reference, con
   const motion::Clip clip = clip_of(moved(input));
   const rl::tracking::TrackingRollout made = simulated(moved(result));
   const audit::PoseNeeds needs = needs_of(asked);
-  const InputScores before = score_input(clip, asked);
+  const InputScores before = score_input(clip, asked, kGravity);
   return worsenings({clip, asked, needs, before}, made, score_simulated(asked, made).values);
 }
 
@@ -141,7 +141,7 @@ TEST(Worsening, OtherLengthsAreNotCompared) {
   clip.rotations.resize(kLength - 5);
   clip.trans.resize(kLength - 5);
   const rl::tracking::TrackingRollout made = simulated(moved(glides));
-  const InputScores before = score_input(clip, asked);
+  const InputScores before = score_input(clip, asked, kGravity);
   EXPECT_TRUE(
       worsenings({clip, asked, needs_of(asked), before}, made, score_simulated(asked, made).values).empty());
 }
